@@ -1,0 +1,48 @@
+//! The project's own chores: `cargo xtask test | bench | gallery`.
+
+use std::process::{Command, ExitCode};
+
+const USAGE: &str = "\
+usage: cargo xtask CHORE
+  test           all tests: units, laws, numbers, the command line, the examples in the documentation
+  bench [quick]  the table of speed and quality, measured on this machine
+  gallery        draws the pictures of the README anew";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let is_done = match args[..] {
+        ["test"] => cargo(&["test", "--workspace", "--locked"]),
+        ["bench"] => cargo(&["bench", "--package", "evenly", "--bench", "table"]),
+        ["bench", "quick"] => cargo(&["bench", "--package", "evenly", "--bench", "table", "--", "quick"]),
+        ["gallery"] => gallery(),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    if is_done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The pictures that the README shows.
+fn gallery() -> bool {
+    let pictures: [&[&str]; 3] = [
+        &["generate", "-n", "10000", "-o", "gallery/points.png"],
+        &["generate", "-n", "10000", "--draw", "valence", "-o", "gallery/valence.png"],
+        &["generate", "-n", "600", "--space", "rect", "--size", "3,2", "--draw", "delaunay,points", "-o", "gallery/rectangle.png"],
+    ];
+    let evenly = ["run", "--release", "--package", "evenly-cli", "--"];
+    let is_drawn = pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));
+    is_drawn && cargo(&["run", "--release", "--package", "evenly-io", "--example", "01_energy", "gallery/energy.svg"])
+}
+
+fn cargo(args: &[&str]) -> bool {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    match Command::new(cargo).args(args).status() {
+        Ok(status) => status.success(),
+        Err(error) => {
+            eprintln!("cargo cannot be run: {error}");
+            false
+        }
+    }
+}
