@@ -1,0 +1,63 @@
+//! What can be wrong with an input. "Did not converge" is not here: that is data, in the [`Report`](crate::Report).
+
+use thiserror::Error;
+
+/// An input that cannot be worked with. Every message names the value and the way out.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Error {
+    /// A coordinate is NaN or infinite.
+    #[error("point {index} is ({}, {}), which is not finite", point[0], point[1])]
+    NotFinite {
+        /// Index of the first such point.
+        index: usize,
+        /// The point as it was given.
+        point: [f64; 2],
+    },
+    /// A point lies outside a bounded domain.
+    #[error(
+        "point {index} is ({}, {}), outside the domain {domain}; \
+         give a size and an origin that hold it", point[0], point[1]
+    )]
+    OutsideDomain {
+        /// Index of the first such point.
+        index: usize,
+        /// The point as it was given.
+        point: [f64; 2],
+        /// The domain, for the message.
+        domain: String,
+    },
+    /// A size or an origin that makes no domain.
+    #[error("{0}")]
+    InvalidSpace(String),
+    /// A parameter outside its range.
+    #[error("{name} is {value}; it must be {expected}")]
+    InvalidParameter {
+        /// The parameter's name, as in the struct that holds it.
+        name: &'static str,
+        /// The value as it was given.
+        value: String,
+        /// What it should have been.
+        expected: &'static str,
+    },
+    /// The domain is so far from zero, or the points so many, that f64 cannot tell neighbours apart.
+    #[error(
+        "{n_points} points in {domain} are {spacing:e} apart, but numbers that large are only {resolution:e} apart; \
+         move the origin nearer to 0"
+    )]
+    TooFine {
+        /// How many points were asked for.
+        n_points: usize,
+        /// The domain, for the message.
+        domain: String,
+        /// The mean spacing, in input units.
+        spacing: f64,
+        /// The distance between neighbouring f64 at the domain's far end.
+        resolution: f64,
+    },
+    /// More points than the indices can hold.
+    #[error("{0} points are too many; at most {max} are possible", max = crate::MAX_POINTS)]
+    TooManyPoints(usize),
+    /// Points from which no triangulation can be made: fewer than three, or all on one line.
+    #[error("{0}")]
+    Degenerate(String),
+}

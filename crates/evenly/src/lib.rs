@@ -1,0 +1,35 @@
+//! Spreads points evenly, but not regularly: blue noise.
+//!
+//! Numbers in, numbers out: no files, no clock, no printing, no global state. Threads are rayon's, and change no bit of any result.
+//!
+//! ```
+//! use evenly::{ProcrustesParams, RunContext, Torus, measure, procrustes, warp, white};
+//!
+//! let mut points = white(Torus::new([0.0, 0.0], [1.0, 1.0])?, 2000, 7)?;
+//! warp(&mut points);
+//! procrustes(&mut points, &ProcrustesParams::default(), &mut RunContext::default())?;
+//! assert!(measure(&points)?.angle_rms_deg < 11.0);
+//! # Ok::<(), evenly::Error>(())
+//! ```
+//!
+//! Lengths that are targets or measures are relative: 1 is the spacing of the hexagonal lattice with as many points,
+//! [`PointSet::hex_spacing`]. Positions are in whatever units the domain has.
+
+mod error;
+mod measure;
+mod optimize;
+mod points;
+mod predicates;
+mod run;
+mod space;
+mod triangulation;
+
+pub use error::Error;
+pub use measure::{BorderMeasures, Measures, Mesh, measure, mesh};
+pub use optimize::{Mode, ProcrustesParams, procrustes};
+pub use points::{PointSet, hexagonal, jittered, warp, white};
+pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
+pub use space::{Rectangle, Space, Torus};
+
+/// The largest number of points: half-edges are counted in 32 bits, also on a finite cover of a torus.
+pub const MAX_POINTS: usize = 40_000_000;

@@ -1,0 +1,81 @@
+//! The shape of triangles.
+
+use glam::DVec2;
+
+use super::is_on_border;
+use crate::triangulation::Triangulation;
+
+/// Shapes of some triangles, summed up.
+#[derive(Clone)]
+pub(super) struct Shapes {
+    n_triangles: usize,
+    n_obtuse: usize,
+    angle_squares: f64,
+    qualities: f64,
+    pub area: f64,
+    pub min_angle_deg: f64,
+    pub max_angle_deg: f64,
+}
+
+impl Shapes {
+    const NONE: Self =
+        Self { n_triangles: 0, n_obtuse: 0, angle_squares: 0.0, qualities: 0.0, area: 0.0, min_angle_deg: 180.0, max_angle_deg: 0.0 };
+
+    /// Adds the triangle (0, u, v).
+    fn add(&mut self, u: DVec2, v: DVec2) {
+        let twice_area = u.perp_dot(v);
+        let w = v - u;
+        // Angles from dot products at the three corners: each cross product is twice the area.
+        let dots = [u.dot(v), -u.dot(w), v.dot(w)];
+        for dot in dots {
+            let angle = twice_area.atan2(dot).to_degrees();
+            self.angle_squares += (angle - 60.0) * (angle - 60.0);
+            self.min_angle_deg = self.min_angle_deg.min(angle);
+            self.max_angle_deg = self.max_angle_deg.max(angle);
+        }
+        // 2 r / R = 16 area^2 / (perimeter a b c), with r = 2 area / perimeter and R = a b c / (4 area).
+        let [a, b, c] = [u.length(), v.length(), w.length()];
+        self.qualities += 4.0 * (twice_area / (a * b)) * (twice_area / (c * (a + b + c)));
+        self.n_triangles += 1;
+        self.n_obtuse += usize::from(dots.iter().any(|&dot| dot < 0.0));
+        self.area += 0.5 * twice_area;
+    }
+
+    pub fn angle_rms_deg(&self) -> f64 {
+        (self.angle_squares / (3.0 * self.n_triangles as f64)).sqrt()
+    }
+
+    pub fn quality(&self) -> f64 {
+        self.qualities / self.n_triangles as f64
+    }
+
+    pub fn obtuse_fraction(&self) -> f64 {
+        self.n_obtuse as f64 / self.n_triangles as f64
+    }
+}
+
+pub(super) struct TriangleMeasures {
+    pub all: Shapes,
+    /// Triangles with a corner on the border.
+    pub border: Shapes,
+    pub interior: Shapes,
+    pub isolated_points: usize,
+}
+
+/// The shapes of the triangles whose circumcentre lies in the domain.
+pub(super) fn measure(triangulation: &Triangulation) -> TriangleMeasures {
+    let (mut border, mut interior, mut all) = (Shapes::NONE, Shapes::NONE, Shapes::NONE);
+    let clipped = triangulation.clipped();
+    let n_vertices = triangulation.positions.len();
+    let is_border = is_on_border(&clipped, n_vertices);
+    let mut is_isolated = vec![true; n_vertices];
+    for corners in clipped.triangles() {
+        let (u, v) = triangulation.spokes(corners);
+        all.add(u, v);
+        let part = if corners.iter().any(|&v| is_border[v as usize]) { &mut border } else { &mut interior };
+        part.add(u, v);
+        corners.iter().for_each(|&v| is_isolated[v as usize] = false);
+    }
+    let isolated_points = is_isolated.into_iter().filter(|&is| is).count();
+    TriangleMeasures { all, border, interior, isolated_points }
+}

@@ -1,0 +1,7 @@
+//! The methods, one file each.
+
+mod border;
+mod mesh;
+mod procrustes;
+
+pub use procrustes::{Mode, ProcrustesParams, procrustes};

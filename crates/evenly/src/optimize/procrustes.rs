@@ -1,0 +1,208 @@
+//! Procrustes analysis: every triangle pulls its corners towards the equilateral triangle that fits it best; edges flip where that lowers the energy.
+//!
+//! Papazov and Hege, "Blue-noise Optimized Point Sets Based on Procrustes Analysis", ZIB-Report 17-55, 2017.
+//!
+//! What differs from the paper, and why:
+//! - The rotation of equation (2) has a closed form: no singular value decomposition, no trigonometry.
+//! - An edge flips only if both new triangles are turned the right way, and a move that turns a triangle over is undone at
+//!   its corners. The paper's plain rule leaves a few inverted triangles in large sets. Both keep its convergence proof: the sum
+//!   over a vertex's targets falls for any step between 0 and twice the way to their mean.
+//! - Edges are visited along the Hilbert curve, not in random order: the quality is the same, the time a tenth.
+//! - [`Mode::Fast`] adds momentum, restarted if the energy keeps rising, which the proof does not cover: a better result in a third of the iterations.
+//! - In a rectangle the border is sampled first: corners and evenly spaced points slide along it, and while they find their
+//!   place the triangulation is built anew, so that the triangles cover the whole domain.
+//!
+//! Cost: O(n) an iteration, the number of iterations does not grow with n. It promises no smallest distance and no regularity.
+
+use serde::Serialize;
+
+use super::border;
+use super::mesh::Mesh;
+use crate::points::separate;
+use crate::run::{Outcome, Phase, Progress, Report, RunContext};
+use crate::triangulation::Triangulation;
+use crate::{Error, PointSet};
+
+/// How points are moved towards their targets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mode {
+    /// The paper's plain steps: the energy never rises.
+    Paper,
+    /// Momentum, restarted if the energy keeps rising: fewer iterations and a lower energy.
+    #[default]
+    Fast,
+}
+
+/// What [`procrustes`] can be told.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ProcrustesParams {
+    /// Plain steps or momentum.
+    pub mode: Mode,
+    /// Side of the model triangle, in hexagonal spacings; the paper's d = 3 r_max is 1.5. It is a stiffness, not a spacing, which is
+    /// set by the number of points: smaller is more robust, larger covers more evenly. Outside [1, 1.625] quality falls.
+    pub side: f64,
+    /// Stops when an iteration lowers the energy by less than this fraction of the domain's area.
+    pub tolerance: f64,
+    /// Stops after this many iterations in any case.
+    pub max_iterations: usize,
+}
+
+impl Default for ProcrustesParams {
+    fn default() -> Self {
+        Self { mode: Mode::Fast, side: 1.5, tolerance: 2e-5, max_iterations: 500 }
+    }
+}
+
+/// The share of the last step that is carried on in [`Mode::Fast`].
+const MOMENTUM: f64 = 0.7;
+/// The first iterations of [`Mode::Fast`], in which nine in ten flips happen.
+const ALWAYS_FLIP: usize = 8;
+/// Sides within which the quality holds.
+const GOOD_SIDES: std::ops::RangeInclusive<f64> = 1.0..=1.625;
+/// Iterations after which a rectangle's triangulation is built anew, while border points find their place.
+const REBUILDS: [usize; 4] = [3, 6, 12, 24];
+
+/// Optimises `points` in place; their number and order stay.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] for a side or tolerance that is not positive and finite, or no iterations;
+/// [`Error::TooFine`] where f64 cannot tell the points apart. The points are untouched then.
+///
+/// # Example
+/// ```
+/// use evenly::{ProcrustesParams, RunContext, Torus, procrustes, warp, white};
+///
+/// let mut points = white(Torus::new([0.0, 0.0], [1.0, 1.0])?, 1000, 7)?;
+/// warp(&mut points);
+/// let report = procrustes(&mut points, &ProcrustesParams::default(), &mut RunContext::default())?;
+/// assert_eq!(report.inverted_triangles, 0);
+/// assert_eq!(points.n_points(), 1000);
+/// # Ok::<(), evenly::Error>(())
+/// ```
+pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut RunContext) -> Result<Report, Error> {
+    validate(params)?;
+    points.space().require_resolution(points.n_points().max(1))?;
+    let mut report = Report::new("procrustes", points.n_points());
+    if !GOOD_SIDES.contains(&params.side) {
+        report.notes.push(format!("side {} is outside [1, 1.625], where triangles keep their shape", params.side));
+    }
+    if points.n_points() < 3 {
+        report.notes.push("fewer than three points: nothing to optimise, they come back as they are".into());
+        return Ok(report);
+    }
+
+    // Preprocessing: distinct points, and their Delaunay triangulation.
+    let (domain, mut positions) = points.normalized();
+    let spacing = (2.0 * domain.area() / (3f64.sqrt() * positions.len() as f64)).sqrt();
+    run.enter(Phase::Separate);
+    let separated = separate(&domain, &mut positions, spacing);
+    report.coincident_points = separated.coincident_points;
+    report.was_collinear = separated.was_collinear;
+    run.enter(Phase::Triangulate);
+    let mut triangulation = Triangulation::delaunay(&domain, &positions, separated.order)?;
+    report.triangulations = 1;
+    let has_border = !domain.is_periodic && points.n_points() >= border::FEWEST;
+    if has_border {
+        triangulation = border::settle(triangulation, spacing)?;
+        report.triangulations += 1;
+    }
+    run.enter(Phase::Optimize);
+    let mut mesh = Mesh::new(triangulation, params.side * spacing);
+
+    // Step 1, match: it also measures the energy of the iteration before.
+    let mut energy = mesh.match_triangles() / mesh.area();
+    report.energy.push(energy);
+    report.outcome = Outcome::IterationLimit;
+    let mut decay = Decay::new(params);
+    while report.iterations < params.max_iterations {
+        if run.is_cancelled() {
+            report.outcome = Outcome::Cancelled;
+            break;
+        }
+        // Step 2: move.
+        let momentum = match params.mode {
+            Mode::Fast if !decay.is_diverging() => MOMENTUM,
+            _ => 0.0,
+        };
+        mesh.move_vertices(momentum);
+        report.moves_undone += mesh.undo_inverted();
+        // Step 3: flip; in fast mode, once most edges have found their place, every second time.
+        if params.mode == Mode::Paper || report.iterations < ALWAYS_FLIP || report.iterations.is_multiple_of(2) {
+            report.flips += mesh.flip_edges();
+        }
+        report.iterations += 1;
+
+        let is_settling = has_border && REBUILDS.contains(&report.iterations);
+        if is_settling {
+            mesh = mesh.rebuilt(|old| border::resettle(old, spacing))?;
+            report.triangulations += 1;
+        }
+        // Step 1 of the next iteration.
+        let before = energy;
+        energy = mesh.match_triangles() / mesh.area();
+        report.energy.push(energy);
+        report.energy_rises += usize::from(energy > before && !is_settling);
+        decay.step(before - energy);
+        let fraction = decay.fraction.max(report.iterations as f64 / params.max_iterations as f64);
+        run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: Some(energy), fraction });
+        if decay.has_settled() && (!has_border || REBUILDS.iter().all(|&at| at < report.iterations)) {
+            report.outcome = Outcome::Converged;
+            break;
+        }
+    }
+    report.inverted_triangles = mesh.n_inverted();
+    if report.outcome == Outcome::IterationLimit {
+        report.notes.push(format!("stopped after {} iterations, before the energy had settled", report.iterations));
+    }
+    let (order, positions) = mesh.into_positions(&domain);
+    points.place(&domain, &order, &positions);
+    Ok(report)
+}
+
+fn validate(params: &ProcrustesParams) -> Result<(), Error> {
+    let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
+    if !(params.side.is_finite() && params.side > 0.0) {
+        return invalid("side", params.side.to_string(), "positive and finite");
+    }
+    if !(params.tolerance.is_finite() && params.tolerance > 0.0) {
+        return invalid("tolerance", params.tolerance.to_string(), "positive and finite");
+    }
+    if params.max_iterations == 0 {
+        return invalid("max_iterations", "0".into(), "1 or more");
+    }
+    Ok(())
+}
+
+/// Watches the energy fall: when to restart, when to stop, and how far the run has come.
+struct Decay {
+    params: ProcrustesParams,
+    /// What the last two iterations have gained, the newer first.
+    gains: [f64; 2],
+    fraction: f64,
+}
+
+impl Decay {
+    fn new(params: &ProcrustesParams) -> Self {
+        Self { params: *params, gains: [f64::INFINITY; 2], fraction: 0.0 }
+    }
+
+    /// Takes what an iteration has gained.
+    fn step(&mut self, gain: f64) {
+        self.gains = [gain, self.gains[0]];
+        // The gain falls about as the inverse square of the iterations.
+        let decay = (self.params.tolerance / gain.abs().max(self.params.tolerance)).sqrt();
+        self.fraction = self.fraction.max(decay).min(1.0);
+    }
+
+    /// Whether the energy has risen twice in a row: momentum alone makes it rise once.
+    fn is_diverging(&self) -> bool {
+        self.gains.iter().all(|&gain| gain < 0.0)
+    }
+
+    /// Whether the last iteration has gained too little to go on; with momentum the last two, since its energy sways.
+    fn has_settled(&self) -> bool {
+        let is_little = |gain: f64| (0.0..self.params.tolerance).contains(&gain);
+        is_little(self.gains[0]) && (self.params.mode == Mode::Paper || is_little(self.gains[1]))
+    }
+}

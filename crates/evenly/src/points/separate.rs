@@ -1,0 +1,56 @@
+//! Points that no triangulation can tell apart are moved apart: coincident ones, and sets that all lie on one line.
+
+use glam::DVec2;
+
+use super::{Random, hilbert_order};
+use crate::predicates::are_collinear;
+use crate::space::Domain;
+
+/// What had to be separated.
+pub(crate) struct Separated {
+    /// The points' Hilbert order, now that each has a place of its own.
+    pub order: Vec<u32>,
+    pub coincident_points: usize,
+    pub was_collinear: bool,
+}
+
+/// How far points are moved at first, in hexagonal spacings.
+const JITTER: f64 = 1e-3;
+
+/// Gives every point a place of its own by a deterministic jitter, and spreads collinear points over a bounded domain.
+///
+/// `spacing` is the hexagonal spacing in normalised units. All other points stay where they are.
+pub(crate) fn separate(domain: &Domain, positions: &mut [DVec2], spacing: f64) -> Separated {
+    let mut random = Random::new(0, 2);
+    let was_collinear = !domain.is_periodic && are_collinear(positions);
+    if was_collinear {
+        for p in &mut *positions {
+            *p = jitter(domain, *p, JITTER * spacing, &mut random);
+        }
+    }
+    let mut coincident_points = None;
+    let mut amount = JITTER * spacing;
+    loop {
+        let order = hilbert_order(positions, domain.size);
+        let doubles = coincident(positions, &order);
+        let coincident_points = *coincident_points.get_or_insert(doubles.len());
+        if doubles.is_empty() {
+            return Separated { order, coincident_points, was_collinear };
+        }
+        for index in doubles {
+            positions[index] = jitter(domain, positions[index], amount, &mut random);
+        }
+        amount *= 2.0;
+    }
+}
+
+fn jitter(domain: &Domain, p: DVec2, amount: f64, random: &mut Random) -> DVec2 {
+    let x = random.signed();
+    domain.land(p + amount * DVec2::new(x, random.signed()))
+}
+
+/// All points but the first at each place that is taken more than once.
+fn coincident(positions: &[DVec2], order: &[u32]) -> Vec<usize> {
+    let pairs = order.windows(2).map(|pair| [pair[0] as usize, pair[1] as usize]);
+    pairs.filter(|&[earlier, later]| positions[earlier] == positions[later]).map(|[_, later]| later).collect()
+}

@@ -1,0 +1,151 @@
+//! One run of a method: progress and cancel on the way in, a [`Report`] on the way out.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use serde::Serialize;
+
+/// What a run is doing at the moment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Phase {
+    /// Coincident and collinear points are moved apart.
+    Separate,
+    /// The Delaunay triangulation is built.
+    Triangulate,
+    /// Points are being moved.
+    Optimize,
+}
+
+/// A sign of life, sent at the start of each phase and after each iteration.
+#[derive(Debug, Clone, Copy)]
+pub struct Progress {
+    /// What is going on.
+    pub phase: Phase,
+    /// Iterations done so far.
+    pub iteration: usize,
+    /// The energy after the last iteration; `None` before the first.
+    pub energy: Option<f64>,
+    /// How far the run has come, 0 to 1, estimated from the energy's decay; never falls.
+    pub fraction: f64,
+}
+
+/// A flag that another thread may raise to end a run early; the run then returns its best state.
+#[derive(Debug, Clone, Default)]
+pub struct CancelToken(Arc<AtomicBool>);
+
+impl CancelToken {
+    /// Asks the run to stop after the iteration at hand.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether somebody has asked.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Progress and cancel for one run. `RunContext::default()` is silent and cannot be cancelled.
+///
+/// Threads are rayon's: run inside `ThreadPool::install` to choose how many. The result does not depend on it.
+#[derive(Default)]
+pub struct RunContext<'a> {
+    progress: Option<Box<dyn FnMut(Progress) + 'a>>,
+    cancel: CancelToken,
+}
+
+impl<'a> RunContext<'a> {
+    /// Calls `progress` at each phase and iteration.
+    #[must_use]
+    pub fn on_progress(mut self, progress: impl FnMut(Progress) + 'a) -> Self {
+        self.progress = Some(Box::new(progress));
+        self
+    }
+
+    /// Stops when `cancel` is raised.
+    #[must_use]
+    pub fn with_cancel(mut self, cancel: CancelToken) -> Self {
+        self.cancel = cancel;
+        self
+    }
+
+    pub(crate) fn report(&mut self, progress: Progress) {
+        if let Some(call) = &mut self.progress {
+            call(progress);
+        }
+    }
+
+    pub(crate) fn enter(&mut self, phase: Phase) {
+        self.report(Progress { phase, iteration: 0, energy: None, fraction: 0.0 });
+    }
+
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_cancelled()
+    }
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// The stop criterion was met.
+    Converged,
+    /// `max_iterations` came first; the state reached is the best so far.
+    IterationLimit,
+    /// The run was cancelled; the state reached is the best so far.
+    Cancelled,
+    /// Fewer than three points: nothing to optimise.
+    NothingToDo,
+}
+
+/// What a method did, whatever the method.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// The method's name, as on the command line.
+    pub method: &'static str,
+    /// Number of points; the same before and after.
+    pub n_points: usize,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// Iterations done.
+    pub iterations: usize,
+    /// The energy before the first iteration and after each, as a fraction of the domain's area.
+    pub energy: Vec<f64>,
+    /// How often the energy rose from one iteration to the next.
+    pub energy_rises: usize,
+    /// Edges flipped in the whole run.
+    pub flips: usize,
+    /// Triangle corners put back because a move would have turned a triangle over.
+    pub moves_undone: usize,
+    /// Triangles of the method's own mesh that are turned over at the end.
+    pub inverted_triangles: usize,
+    /// Points of the input that shared their place with another, and were moved apart.
+    pub coincident_points: usize,
+    /// Whether all points lay on one line and were spread first.
+    pub was_collinear: bool,
+    /// How often the triangulation was built anew.
+    pub triangulations: usize,
+    /// What the user should know, in plain words.
+    pub notes: Vec<String>,
+}
+
+impl Report {
+    pub(crate) fn new(method: &'static str, n_points: usize) -> Self {
+        Self {
+            method,
+            n_points,
+            outcome: Outcome::NothingToDo,
+            iterations: 0,
+            energy: Vec::new(),
+            energy_rises: 0,
+            flips: 0,
+            moves_undone: 0,
+            inverted_triangles: 0,
+            coincident_points: 0,
+            was_collinear: false,
+            triangulations: 0,
+            notes: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! The normalised domain that all geometry works in.
+//!
+//! Coordinates are scaled by a power of two, so that the longer side lies in [1, 2), and every position and period is a multiple
+//! of 2^-47. Differences of positions, and sums with a few periods, are therefore exact: a triangle and its copy across the
+//! seam give the predicates the same bits.
+
+use glam::DVec2;
+
+use super::Space;
+use crate::predicates::is_left_turn;
+
+/// Adding and subtracting this rounds to a multiple of 2^-47, for |x| < 16.
+const SNAP: f64 = 1.5 * 32.0;
+/// Adding and subtracting this rounds to an integer, for |x| < 2^51.
+const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
+/// The spacing of the grid on which all positions lie.
+pub(crate) const GRID: f64 = 1.0 / (1u64 << 47) as f64;
+
+/// A box [0, size.x] x [0, size.y], periodic or not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Domain {
+    pub size: DVec2,
+    pub is_periodic: bool,
+    /// 1 / size on a torus, 0 on a rectangle: no difference is ever a period then.
+    inverse_period: DVec2,
+    /// The longest that a spoke can be along each axis: half a period, or anything.
+    longest_spoke: DVec2,
+    origin: DVec2,
+    /// The far corner in input units.
+    end: DVec2,
+    /// A power of two: normalised = (input - origin) * scale.
+    scale: f64,
+}
+
+/// Rounds to the grid.
+#[inline]
+fn snap(p: DVec2) -> DVec2 {
+    (p + SNAP) - SNAP
+}
+
+impl Domain {
+    pub fn new(space: &Space) -> Self {
+        let (origin, size) = (DVec2::from(space.origin()), DVec2::from(space.size()));
+        let scale = (-size.max_element().log2().floor()).exp2();
+        let domain = Self {
+            size: snap(size * scale),
+            is_periodic: space.is_periodic(),
+            inverse_period: DVec2::ZERO,
+            longest_spoke: DVec2::INFINITY,
+            origin,
+            end: origin + size,
+            scale,
+        };
+        domain.with_size(domain.size)
+    }
+
+    /// The same domain, `copies` times as wide and high: the finite cover of a torus.
+    pub fn covered(&self, copies: [u32; 2]) -> Self {
+        self.with_size(self.size * DVec2::new(f64::from(copies[0]), f64::from(copies[1])))
+    }
+
+    /// The domain of which this is the cover.
+    pub fn uncovered(&self, copies: [u32; 2]) -> Self {
+        self.with_size(self.size / DVec2::new(f64::from(copies[0]), f64::from(copies[1])))
+    }
+
+    fn with_size(mut self, size: DVec2) -> Self {
+        self.size = size;
+        if self.is_periodic {
+            self.inverse_period = 1.0 / size;
+            self.longest_spoke = 0.5 * size;
+        }
+        self
+    }
+
+    pub fn area(&self) -> f64 {
+        self.size.x * self.size.y
+    }
+
+    /// From input units.
+    pub fn normalize(&self, p: [f64; 2]) -> DVec2 {
+        let mut q = (DVec2::from(p) - self.origin) * self.scale;
+        if self.is_periodic {
+            q -= (q / self.size).floor() * self.size;
+        }
+        self.land(q)
+    }
+
+    /// To input units.
+    pub fn restore(&self, q: DVec2) -> [f64; 2] {
+        let mut p = self.origin + q / self.scale;
+        for axis in 0..2 {
+            let at_end = p[axis] >= self.end[axis];
+            if self.is_periodic && at_end {
+                p[axis] = self.origin[axis];
+            } else if at_end || q[axis] == self.size[axis] {
+                p[axis] = self.end[axis];
+            }
+        }
+        p.into()
+    }
+
+    /// A length in input units.
+    pub fn restore_length(&self, length: f64) -> f64 {
+        length / self.scale
+    }
+
+    /// The vector from `a` to `b`, the shortest of its periodic images. Exact.
+    #[inline]
+    pub fn spoke(&self, a: DVec2, b: DVec2) -> DVec2 {
+        let d = b - a;
+        let periods = (d * self.inverse_period + ROUND) - ROUND;
+        d - periods * self.size
+    }
+
+    /// Whether three places make a triangle turned the right way, given the spokes from the first to the others; exact. On a torus its
+    /// third edge must be a spoke too: in a triangle that reaches too far round, the three would not close.
+    #[inline]
+    pub fn is_upright(&self, u: DVec2, v: DVec2) -> bool {
+        is_left_turn(u, v) && self.is_spoke(v - u)
+    }
+
+    /// Whether a vector is the shortest of its periodic images.
+    #[inline]
+    pub fn is_spoke(&self, d: DVec2) -> bool {
+        d.abs().cmple(self.longest_spoke).all()
+    }
+
+    /// The place in the domain nearest to `q`, on the grid: wrapped on a torus, clamped in a rectangle.
+    #[inline]
+    pub fn land(&self, q: DVec2) -> DVec2 {
+        let q = snap(q);
+        if self.is_periodic {
+            let below = DVec2::select(q.cmplt(DVec2::ZERO), self.size, DVec2::ZERO);
+            let above = DVec2::select(q.cmpge(self.size), self.size, DVec2::ZERO);
+            q + below - above
+        } else {
+            q.clamp(DVec2::ZERO, self.size)
+        }
+    }
+
+    /// Whether a place lies in the closed box.
+    pub fn contains(&self, q: DVec2) -> bool {
+        q.cmpge(DVec2::ZERO).all() && q.cmple(self.size).all()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Rectangle, Torus};
+
+    #[test]
+    fn a_position_survives_the_way_in_and_out() {
+        for (origin, size) in [([0.0, 0.0], [1.0, 1.0]), ([-7.0, 1e6], [3e5, 2.0]), ([1e-9, 0.0], [1e-12, 3e-12])] {
+            let domain = Domain::new(&Rectangle::new(origin, size).unwrap().into());
+            let corner = [origin[0] + size[0], origin[1] + size[1]];
+            assert_eq!(domain.restore(domain.normalize(origin)), origin);
+            assert_eq!(domain.restore(domain.normalize(corner)), corner);
+            let inside = [origin[0] + 0.3 * size[0], origin[1] + 0.7 * size[1]];
+            let back = domain.restore(domain.normalize(inside));
+            for axis in 0..2 {
+                assert!((back[axis] - inside[axis]).abs() <= 1e-14 * size[0].max(size[1]).max(origin[axis].abs()));
+            }
+        }
+    }
+
+    #[test]
+    fn the_far_side_of_a_torus_is_its_near_side() {
+        let domain = Domain::new(&Torus::new([-1.0, 2.0], [3.0, 0.7]).unwrap().into());
+        assert_eq!(domain.normalize([2.0, 2.7]).x, 0.0);
+        assert_eq!(domain.restore(domain.size - GRID)[0], -1.0 + 3.0 - 2.0 * GRID);
+        let spoke = domain.spoke(domain.normalize([-0.9, 2.1]), domain.normalize([1.9, 2.1]));
+        assert!((domain.restore_length(spoke.x) + 0.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn snapping_is_a_round_trip_to_the_grid() {
+        let p = snap(DVec2::new(1.0 / 3.0, -0.1));
+        assert_eq!(p, snap(p));
+        assert!((p.x / GRID).fract() == 0.0 && (p.y / GRID).fract() == 0.0);
+    }
+}

@@ -1,0 +1,157 @@
+//! Where points live: the periodic [`Torus`], the bounded [`Rectangle`]. Inside, both are one normalised [`Domain`](domain::Domain).
+
+mod domain;
+
+pub(crate) use domain::{Domain, GRID};
+
+use serde::Serialize;
+
+use crate::Error;
+
+/// The largest ratio of a domain's sides: beyond it, the short side has too few bits left.
+const MAX_ASPECT: f64 = 1e6;
+/// The sides that leave room for the arithmetic on them.
+const SIDES: std::ops::RangeInclusive<f64> = 1e-270..=1e270;
+
+/// A rectangle whose opposite sides are one: points that leave on the right come in on the left. Its sets tile the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Torus {
+    origin: [f64; 2],
+    size: [f64; 2],
+}
+
+/// A bounded rectangle; its border belongs to it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Rectangle {
+    origin: [f64; 2],
+    size: [f64; 2],
+}
+
+impl Torus {
+    /// A torus of this width and height, with its lower left corner at `origin`, both in input units.
+    ///
+    /// # Errors
+    /// [`Error::InvalidSpace`] where a side is not positive and finite, or the sides differ by more than a millionfold.
+    pub fn new(origin: [f64; 2], size: [f64; 2]) -> Result<Self, Error> {
+        validate(origin, size)?;
+        Ok(Self { origin, size })
+    }
+}
+
+impl Rectangle {
+    /// A rectangle of this width and height, with its lower left corner at `origin`, both in input units.
+    ///
+    /// # Errors
+    /// [`Error::InvalidSpace`] where a side is not positive and finite, or the sides differ by more than a millionfold.
+    pub fn new(origin: [f64; 2], size: [f64; 2]) -> Result<Self, Error> {
+        validate(origin, size)?;
+        Ok(Self { origin, size })
+    }
+}
+
+fn validate(origin: [f64; 2], size: [f64; 2]) -> Result<(), Error> {
+    let invalid = |text: String| Err(Error::InvalidSpace(text));
+    for side in size {
+        if !SIDES.contains(&side) {
+            return invalid(format!("the domain's sides are {} x {}; both must be positive and finite", size[0], size[1]));
+        }
+    }
+    if !(origin[0].is_finite() && origin[1].is_finite()) {
+        return invalid(format!("the domain's origin is ({}, {}); it must be finite", origin[0], origin[1]));
+    }
+    let aspect = (size[0] / size[1]).max(size[1] / size[0]);
+    if aspect > MAX_ASPECT {
+        return invalid(format!("the domain's sides, {} x {}, differ by more than {MAX_ASPECT:e}", size[0], size[1]));
+    }
+    for axis in 0..2 {
+        let resolution = ulp(origin[axis].abs().max((origin[axis] + size[axis]).abs()));
+        if size[axis] < 64.0 * resolution {
+            return invalid(format!(
+                "a side of {} at {} is lost in rounding: numbers there are {resolution:e} apart; move the origin nearer to 0",
+                size[axis], origin[axis]
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The distance from `x` to the next larger f64.
+fn ulp(x: f64) -> f64 {
+    x.next_up() - x
+}
+
+/// A domain for points.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Space {
+    /// Periodic.
+    Torus(Torus),
+    /// Bounded.
+    Rectangle(Rectangle),
+}
+
+impl From<Torus> for Space {
+    fn from(torus: Torus) -> Self {
+        Self::Torus(torus)
+    }
+}
+
+impl From<Rectangle> for Space {
+    fn from(rectangle: Rectangle) -> Self {
+        Self::Rectangle(rectangle)
+    }
+}
+
+impl Space {
+    /// The lower left corner, in input units.
+    pub fn origin(&self) -> [f64; 2] {
+        match self {
+            Self::Torus(torus) => torus.origin,
+            Self::Rectangle(rectangle) => rectangle.origin,
+        }
+    }
+
+    /// Width and height, in input units.
+    pub fn size(&self) -> [f64; 2] {
+        match self {
+            Self::Torus(torus) => torus.size,
+            Self::Rectangle(rectangle) => rectangle.size,
+        }
+    }
+
+    /// Whether opposite sides are one.
+    pub fn is_periodic(&self) -> bool {
+        matches!(self, Self::Torus(_))
+    }
+
+    /// The domain's area, in input units squared.
+    pub fn area(&self) -> f64 {
+        self.size()[0] * self.size()[1]
+    }
+
+    /// The spacing of the hexagonal lattice with `n_points` points, `sqrt(2 A / (sqrt(3) n))`, in input units:
+    /// the unit of all relative lengths.
+    pub fn hex_spacing(&self, n_points: usize) -> f64 {
+        // Side by side, so that tiny domains do not underflow.
+        let [width, height] = self.size().map(|side| (side / n_points as f64).sqrt());
+        width * height * (2.0 * n_points as f64 / 3f64.sqrt()).sqrt()
+    }
+
+    /// Checks that f64 can tell `n_points` points apart here.
+    pub(crate) fn require_resolution(&self, n_points: usize) -> Result<(), Error> {
+        let (origin, size) = (self.origin(), self.size());
+        let resolution = (0..2).map(|axis| ulp(origin[axis].abs().max((origin[axis] + size[axis]).abs()))).fold(0.0, f64::max);
+        let spacing = self.hex_spacing(n_points);
+        if spacing < 64.0 * resolution {
+            return Err(Error::TooFine { n_points, domain: self.to_string(), spacing, resolution });
+        }
+        Ok(())
+    }
+}
+
+impl std::fmt::Display for Space {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (origin, size) = (self.origin(), self.size());
+        write!(f, "{} x {} at ({}, {})", size[0], size[1], origin[0], origin[1])
+    }
+}

@@ -1,0 +1,201 @@
+//! Flat half-edges: topology alone, no positions.
+//!
+//! Triangle `t` owns the half-edges `3t`, `3t + 1`, `3t + 2`, in counter-clockwise order. A half-edge knows the vertex it
+//! leaves and the half-edge that runs the other way, in the neighbouring triangle; on a border there is none.
+
+/// The twin of a half-edge on a border.
+pub(crate) const BORDER: u32 = u32::MAX;
+
+/// A triangulated surface, closed or with borders.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct HalfEdges {
+    pub origin: Vec<u32>,
+    pub twin: Vec<u32>,
+}
+
+/// The half-edge that follows `h` in its triangle.
+#[inline]
+pub(crate) fn next(h: u32) -> u32 {
+    if h % 3 == 2 { h - 2 } else { h + 1 }
+}
+
+/// The half-edge before `h` in its triangle.
+#[inline]
+pub(crate) fn prev(h: u32) -> u32 {
+    if h.is_multiple_of(3) { h + 2 } else { h - 1 }
+}
+
+impl HalfEdges {
+    pub fn n_triangles(&self) -> usize {
+        self.origin.len() / 3
+    }
+
+    /// The three vertices of a triangle, counter-clockwise.
+    #[inline]
+    pub fn triangle(&self, t: usize) -> [u32; 3] {
+        [self.origin[3 * t], self.origin[3 * t + 1], self.origin[3 * t + 2]]
+    }
+
+    pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        self.origin.chunks_exact(3).map(|t| [t[0], t[1], t[2]])
+    }
+
+    /// The vertex at which `h` arrives.
+    #[inline]
+    pub fn target(&self, h: u32) -> u32 {
+        self.origin[next(h) as usize]
+    }
+
+    pub fn is_border(&self, h: u32) -> bool {
+        self.twin[h as usize] == BORDER
+    }
+
+    /// All half-edges that leave the origin of `h`, once round it, counter-clockwise; at a border both sides of the gap are visited.
+    pub fn around(&self, h: u32) -> impl Iterator<Item = u32> {
+        let mut first = h;
+        // Turn clockwise to the border, if there is one, and start there.
+        loop {
+            let twin = self.twin[first as usize];
+            if twin == BORDER {
+                break;
+            }
+            first = next(twin);
+            if first == h {
+                break;
+            }
+        }
+        let mut at = Some(first);
+        std::iter::from_fn(move || {
+            let current = at?;
+            let turned = self.twin[prev(current) as usize];
+            at = (turned != BORDER && turned != first).then_some(turned);
+            Some(current)
+        })
+    }
+
+    /// For each vertex a half-edge that leaves it; at a border vertex the one on the border. `BORDER` for a vertex without triangles.
+    pub fn outgoing(&self, n_vertices: usize) -> Vec<u32> {
+        let mut outgoing = vec![BORDER; n_vertices];
+        for (h, &v) in self.origin.iter().enumerate() {
+            let best = &mut outgoing[v as usize];
+            if *best == BORDER || self.twin[h] == BORDER {
+                *best = h as u32;
+            }
+        }
+        outgoing
+    }
+
+    /// Keeps the triangles for which `first` names a corner, and sorts them by the vertex there, with which each then begins.
+    /// Edges to the others become borders.
+    pub fn filtered(&self, first: impl Fn([u32; 3]) -> Option<usize>) -> Self {
+        // A counting sort.
+        let n_vertices = self.origin.iter().max().map_or(0, |&v| v as usize + 1);
+        let mut start = vec![0u32; n_vertices + 1];
+        for corners in self.triangles() {
+            if let Some(first) = first(corners) {
+                start[corners[first] as usize + 1] += 1;
+            }
+        }
+        for v in 0..n_vertices {
+            start[v + 1] += start[v];
+        }
+        let n_kept = start[n_vertices] as usize;
+        let mut kept = Self { origin: vec![0; 3 * n_kept], twin: vec![BORDER; 3 * n_kept] };
+        let mut slots = vec![BORDER; self.n_triangles()];
+        for (t, corners) in self.triangles().enumerate() {
+            let Some(first) = first(corners) else { continue };
+            let slot = &mut start[corners[first] as usize];
+            for k in 0..3 {
+                let h = 3 * t + (first + k) % 3;
+                kept.origin[3 * *slot as usize + k] = self.origin[h];
+                // For now the triangle across.
+                kept.twin[3 * *slot as usize + k] = self.twin[h] / 3;
+            }
+            slots[t] = *slot;
+            *slot += 1;
+        }
+        // A twin lies in the triangle across, and leaves the vertex at which its half-edge arrives.
+        for h in 0..kept.origin.len() {
+            let slot = slots.get(kept.twin[h] as usize).copied().unwrap_or(BORDER);
+            kept.twin[h] = if slot == BORDER { BORDER } else { kept.leaving(slot, kept.target(h as u32)) };
+        }
+        kept
+    }
+
+    /// The half-edge of triangle `t` that leaves vertex `v`, one of its corners.
+    #[inline]
+    fn leaving(&self, t: u32, v: u32) -> u32 {
+        let [a, b, _] = self.triangle(t as usize);
+        3 * t
+            + if v == a {
+                0
+            } else if v == b {
+                1
+            } else {
+                2
+            }
+    }
+
+    /// Replaces the edge of `h`, which must have a twin, by the other diagonal of the two triangles' quadrilateral.
+    pub fn flip(&mut self, h: u32) {
+        let t = self.twin[h as usize];
+        let (hp, tp) = (prev(h), prev(t));
+        let (across_h, across_t) = (self.twin[tp as usize], self.twin[hp as usize]);
+        self.origin[h as usize] = self.origin[tp as usize];
+        self.origin[t as usize] = self.origin[hp as usize];
+        for (a, b) in [(hp, tp), (h, across_h), (t, across_t)] {
+            self.twin[a as usize] = b;
+            if b != BORDER {
+                self.twin[b as usize] = a;
+            }
+        }
+    }
+}
+
+/// The position of the smallest of a triangle's vertices.
+pub(crate) fn smallest([a, b, c]: [u32; 3]) -> usize {
+    if a < b && a < c {
+        0
+    } else if b < c {
+        1
+    } else {
+        2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square 0 1 2 3 cut along 0-2.
+    fn square() -> HalfEdges {
+        HalfEdges { origin: vec![0, 1, 2, 0, 2, 3], twin: vec![BORDER, BORDER, 3, 2, BORDER, BORDER] }
+    }
+
+    #[test]
+    fn walking_around_a_border_vertex_meets_every_triangle_once() {
+        let mesh = square();
+        assert_eq!(mesh.around(3).collect::<Vec<_>>(), [0, 3]);
+        assert_eq!(mesh.around(1).collect::<Vec<_>>(), [1]);
+        assert_eq!(mesh.outgoing(5), [0, 1, 4, 5, BORDER]);
+    }
+
+    #[test]
+    fn filtering_orders_triangles_and_opens_borders() {
+        let mesh = square();
+        let all = mesh.filtered(|t| Some(smallest(t)));
+        assert_eq!(all.twin.iter().filter(|&&t| t != BORDER).count(), 2);
+        let one = mesh.filtered(|t| t.contains(&3).then_some(0));
+        assert_eq!(one, HalfEdges { origin: vec![0, 2, 3], twin: vec![BORDER; 3] });
+    }
+
+    #[test]
+    fn flipping_twice_swaps_the_triangles() {
+        let mut mesh = square();
+        mesh.flip(2);
+        assert_eq!(mesh.triangle(0), [0, 1, 3]);
+        assert_eq!(mesh.triangle(1), [1, 2, 3]);
+        mesh.flip(1);
+        assert_eq!([mesh.triangle(0), mesh.triangle(1)], [[0, 2, 3], [1, 2, 0]]);
+    }
+}

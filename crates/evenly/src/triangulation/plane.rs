@@ -1,0 +1,60 @@
+//! Delaunay triangulations of points in the plane, brought into flat half-edges.
+
+use delaunator::EMPTY;
+use glam::DVec2;
+use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation as _};
+
+use super::half_edges::{BORDER, HalfEdges};
+use crate::Error;
+
+struct Site {
+    position: Point2<f64>,
+    index: u32,
+}
+
+impl HasPosition for Site {
+    type Scalar = f64;
+    fn position(&self) -> Point2<f64> {
+        self.position
+    }
+}
+
+/// The exact Delaunay triangulation of distinct points, by crate `spade`; vertex `i` is point `i`. Points on one line give no triangles.
+pub(super) fn delaunay(points: impl Iterator<Item = DVec2>) -> Result<HalfEdges, Error> {
+    let sites = points.enumerate().map(|(index, p)| Site { position: Point2::new(p.x, p.y), index: index as u32 });
+    let sites: Vec<Site> = sites.collect();
+    let n_sites = sites.len();
+    let mesh = DelaunayTriangulation::<Site>::bulk_load(sites).map_err(|e| Error::Degenerate(e.to_string()))?;
+    if mesh.num_vertices() != n_sites {
+        let n_lost = n_sites - mesh.num_vertices();
+        return Err(Error::Degenerate(format!("{n_lost} points share their place with another")));
+    }
+    let mut slot = vec![BORDER; mesh.num_directed_edges()];
+    let mut origin = Vec::with_capacity(3 * mesh.num_inner_faces());
+    for face in mesh.inner_faces() {
+        for edge in face.adjacent_edges() {
+            slot[edge.fix().index()] = origin.len() as u32;
+            origin.push(edge.from().data().index);
+        }
+    }
+    let mut twin = vec![BORDER; origin.len()];
+    for edge in mesh.directed_edges() {
+        let h = slot[edge.fix().index()];
+        if h != BORDER {
+            twin[h as usize] = slot[edge.rev().fix().index()];
+        }
+    }
+    Ok(HalfEdges { origin, twin })
+}
+
+/// A triangulation that is nearly always Delaunay, by crate `delaunator`: faster, but not exact. It may leave out points and
+/// choose wrong diagonals where points are nearly cocircular; whoever calls it must prove or mend what comes back.
+pub(super) fn nearly_delaunay(points: impl Iterator<Item = DVec2>) -> HalfEdges {
+    let points: Vec<delaunator::Point> = points.map(|p| delaunator::Point { x: p.x, y: p.y }).collect();
+    let delaunator::Triangulation { triangles, halfedges, .. } = delaunator::triangulate(&points);
+    // Its triangles run clockwise: ours are those read backwards, half-edge k being the reverse of its half-edge 2 - k.
+    let mirrored = |h: usize| if h == EMPTY { BORDER } else { (h - h % 3 + 2 - h % 3) as u32 };
+    let origin = triangles.chunks_exact(3).flat_map(|t| [t[0], t[2], t[1]]).map(|v| v as u32).collect();
+    let twin = halfedges.chunks_exact(3).flat_map(|t| [t[2], t[1], t[0]]).map(mirrored).collect();
+    HalfEdges { origin, twin }
+}

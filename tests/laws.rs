@@ -1,0 +1,400 @@
+//! Laws that hold for every method, in every space: one table of cases.
+
+#![allow(clippy::unwrap_used)]
+
+use evenly::{
+    CancelToken, Mode, Outcome, PointSet, ProcrustesParams, Rectangle, Report, RunContext, Space, Torus, hexagonal, jittered, measure,
+    mesh, procrustes, warp, white,
+};
+use proptest::prelude::*;
+
+/// A method, with all its parameters.
+#[derive(Clone, Copy, Debug)]
+enum Method {
+    Procrustes(ProcrustesParams),
+}
+
+impl Method {
+    const ALL: fn() -> Vec<Self> = || {
+        let params = ProcrustesParams::default();
+        vec![Self::Procrustes(params), Self::Procrustes(ProcrustesParams { mode: Mode::Paper, ..params })]
+    };
+
+    fn run(self, points: &mut PointSet) -> Report {
+        match self {
+            Self::Procrustes(params) => procrustes(points, &params, &mut RunContext::default()).unwrap(),
+        }
+    }
+}
+
+fn torus(origin: [f64; 2], size: [f64; 2]) -> Space {
+    Torus::new(origin, size).unwrap().into()
+}
+
+fn rectangle(origin: [f64; 2], size: [f64; 2]) -> Space {
+    Rectangle::new(origin, size).unwrap().into()
+}
+
+/// Square and long, far off, tiny and huge.
+fn spaces() -> Vec<Space> {
+    vec![
+        torus([0.0, 0.0], [1.0, 1.0]),
+        torus([-20.0, 1e9], [300.0, 3.0]),
+        torus([0.0, 0.0], [1e-12, 7e-12]),
+        rectangle([0.0, 0.0], [1.0, 1.0]),
+        rectangle([1e9, -5.0], [1.0, 100.0]),
+        rectangle([-1e12, 0.0], [1e12, 3e11]),
+    ]
+}
+
+fn is_inside(space: &Space, p: [f64; 2]) -> bool {
+    let (origin, size) = (space.origin(), space.size());
+    (0..2).all(|axis| {
+        let end = origin[axis] + size[axis];
+        p[axis] >= origin[axis] && if space.is_periodic() { p[axis] < end } else { p[axis] <= end }
+    })
+}
+
+fn n_distinct(points: &PointSet) -> usize {
+    let mut bits: Vec<[u64; 2]> = points.positions().iter().map(|p| p.map(f64::to_bits)).collect();
+    bits.sort_unstable();
+    bits.dedup();
+    bits.len()
+}
+
+/// What every run must leave behind.
+fn assert_sound(points: &PointSet, n: usize, report: &Report, case: &str) {
+    assert_eq!((points.n_points(), report.n_points), (n, n), "{case}");
+    assert!(points.positions().iter().all(|&p| is_inside(points.space(), p)), "{case}");
+    if n >= 3 {
+        assert_eq!(n_distinct(points), n, "{case}");
+        assert_eq!(report.inverted_triangles, 0, "{case}");
+        assert_eq!(report.energy.len(), report.iterations + 1, "{case}");
+        // A ring of points on a narrow torus relaxes by its long waves alone.
+        let [width, height] = points.space().size();
+        let is_narrow = width / height > 50.0 && points.space().is_periodic();
+        assert!(report.outcome == Outcome::Converged || is_narrow, "{case}");
+    }
+}
+
+#[test]
+fn every_method_is_sound_in_every_space_for_every_number() {
+    for method in Method::ALL() {
+        for space in spaces() {
+            for n in (1..=24).chain([50, 333, 1000]) {
+                let mut points = white(space, n, n as u64).unwrap();
+                let report = method.run(&mut points);
+                assert_sound(&points, n, &report, &format!("{method:?}, {space}, {n}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_energy_never_ends_higher_and_never_rises_in_plain_steps() {
+    for method in Method::ALL() {
+        let Method::Procrustes(params) = method;
+        for space in spaces() {
+            let mut points = white(space, 700, 3).unwrap();
+            let report = method.run(&mut points);
+            let case = format!("{method:?}, {space}");
+            if space.is_periodic() {
+                assert!(report.energy.last() <= report.energy.first(), "{case}");
+            }
+            if params.mode == Mode::Paper {
+                assert_eq!(report.energy_rises, 0, "{case}");
+            }
+        }
+    }
+}
+
+#[test]
+fn fewer_than_three_points_come_back_as_they_are() {
+    for method in Method::ALL() {
+        for n in [1, 2] {
+            let mut points = white(spaces()[1], n, 5).unwrap();
+            let before = points.clone();
+            let report = method.run(&mut points);
+            assert_eq!(points, before);
+            assert_eq!(report.outcome, Outcome::NothingToDo);
+            assert!(report.notes[0].contains("nothing to optimise"));
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    for method in Method::ALL() {
+        for space in [spaces()[0], spaces()[4]] {
+            let run = |n_threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+                pool.install(|| {
+                    let mut points = white(space, 40_000, 11).unwrap();
+                    warp(&mut points);
+                    let report = method.run(&mut points);
+                    let measures = measure(&points).unwrap();
+                    (points, report, measures)
+                })
+            };
+            let one = run(1);
+            for n_threads in [2, 3, 8] {
+                assert!(run(n_threads) == one, "{method:?}, {space}, {n_threads} threads");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_order_of_the_input_does_not_matter() {
+    for method in Method::ALL() {
+        for space in [spaces()[0], spaces()[3]] {
+            let start = white(space, 500, 2).unwrap();
+            let shuffled: Vec<[f64; 2]> = (0..500).map(|i| start.positions()[i * 77 % 500]).collect();
+            let run = |positions: Vec<[f64; 2]>| {
+                let mut points = PointSet::new(space, positions).unwrap();
+                warp(&mut points);
+                method.run(&mut points);
+                points
+            };
+            let (plain, other) = (run(start.positions().to_vec()), run(shuffled));
+            for i in 0..500 {
+                assert_eq!(other.positions()[i], plain.positions()[i * 77 % 500], "{method:?}, {space}");
+            }
+        }
+    }
+}
+
+#[test]
+fn scaling_by_a_power_of_two_scales_the_result_to_the_bit() {
+    for method in Method::ALL() {
+        for make in [torus, rectangle] {
+            let run = |scale: f64| {
+                let mut points = white(make([0.0, 0.0], [3.0 * scale, 2.0 * scale]), 400, 9).unwrap();
+                warp(&mut points);
+                method.run(&mut points);
+                points.positions().iter().map(|p| p.map(|x| x / scale)).collect::<Vec<_>>()
+            };
+            let plain = run(1.0);
+            assert_eq!(run(2f64.powi(40)), plain);
+            assert_eq!(run(2f64.powi(-40)), plain);
+        }
+    }
+}
+
+#[test]
+fn shifting_and_scaling_at_will_change_only_the_rounding() {
+    for method in Method::ALL() {
+        for make in [torus, rectangle] {
+            let run = |origin: [f64; 2], scale: f64| {
+                let start = white(make([0.0, 0.0], [1.0, 2.0]), 300, 4).unwrap();
+                let moved = start.positions().iter().map(|p| [origin[0] + scale * p[0], origin[1] + scale * p[1]]).collect();
+                let mut points = PointSet::new(make(origin, [scale, 2.0 * scale]), moved).unwrap();
+                let report = method.run(&mut points);
+                (measure(&points).unwrap(), report)
+            };
+            let (plain, report) = run([0.0, 0.0], 1.0);
+            let (moved, other) = run([-3.0, 50.0], 7.3);
+            assert!((plain.angle_rms_deg - moved.angle_rms_deg).abs() < 0.2);
+            assert!((report.energy[0] - other.energy[0]).abs() < 1e-9);
+        }
+    }
+}
+
+/// Sets that make other programs stumble, as fractions of the domain.
+fn hard_sets() -> Vec<(&'static str, Vec<[f64; 2]>)> {
+    let some = white(torus([0.0, 0.0], [1.0, 1.0]), 200, 1).unwrap();
+    let squeezed = |low: f64, width: f64| some.positions().iter().map(move |p| [low + width * p[0], low + width * p[1]]);
+    let grid = |n: usize| (0..n * n).map(move |i| [(i % n) as f64 / n as f64, (i / n) as f64 / n as f64]).collect();
+    vec![
+        ("a grid", grid(20)),
+        ("a small grid", grid(2)),
+        ("a row", (0..50).map(|i| [i as f64 / 50.0, 0.5]).collect()),
+        ("a column on the border", (0..50).map(|i| [0.0, i as f64 / 50.0]).collect()),
+        ("a diagonal", (0..50).map(|i| [i as f64 / 64.0; 2]).collect()),
+        ("one place", vec![[0.3, 0.7]; 40]),
+        ("the corner", vec![[0.0, 0.0]; 40]),
+        ("three in one place", vec![[0.5, 0.5]; 3]),
+        ("pairs", squeezed(0.0, 1.0).chain(squeezed(0.0, 1.0)).collect()),
+        ("a cluster", squeezed(0.4, 1e-3).collect()),
+        ("two far clusters", squeezed(0.1, 1e-3).chain(squeezed(0.6, 1e-3)).collect()),
+        ("half empty", some.positions().iter().map(|p| [0.5 * p[0], p[1]]).collect()),
+    ]
+}
+
+#[test]
+fn hard_sets_are_spread() {
+    for method in Method::ALL() {
+        for space in [spaces()[0], spaces()[1], spaces()[3], spaces()[4]] {
+            for (name, fractions) in hard_sets() {
+                for is_warped in [false, true] {
+                    let n = fractions.len();
+                    let (origin, size) = (space.origin(), space.size());
+                    let place = |p: &[f64; 2]| [origin[0] + size[0] * p[0], origin[1] + size[1] * p[1]];
+                    let mut points = PointSet::new(space, fractions.iter().map(place).collect()).unwrap();
+                    if is_warped {
+                        warp(&mut points);
+                    }
+                    let Method::Procrustes(params) = method;
+                    let report = procrustes(&mut points, &params, &mut RunContext::default()).unwrap();
+                    let case = format!("{name}, {method:?}, {space}, warped {is_warped}");
+                    assert_eq!(points.n_points(), n, "{case}");
+                    assert_eq!(n_distinct(&points), n, "{case}");
+                    assert_eq!(report.inverted_triangles, 0, "{case}");
+                    assert!(points.positions().iter().all(|&p| is_inside(&space, p)), "{case}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_was_separated_is_told() {
+    let run = |positions: Vec<[f64; 2]>, space: Space| {
+        let mut points = PointSet::new(space, positions).unwrap();
+        procrustes(&mut points, &ProcrustesParams::default(), &mut RunContext::default()).unwrap()
+    };
+    let doubled = run(vec![[0.1, 0.1], [0.6, 0.2], [0.1, 0.1], [0.3, 0.9], [0.1, 0.1]], spaces()[0]);
+    assert_eq!((doubled.coincident_points, doubled.was_collinear), (2, false));
+    let lined = run((0..9).map(|i| [0.1 * f64::from(i), 0.5]).collect(), spaces()[3]);
+    assert_eq!((lined.coincident_points, lined.was_collinear), (0, true));
+}
+
+#[test]
+fn a_cancelled_run_keeps_its_best_state() {
+    let mut points = white(spaces()[0], 2000, 8).unwrap();
+    let before = measure(&points).unwrap();
+    let cancel = CancelToken::default();
+    let handle = cancel.clone();
+    let mut run = RunContext::default().with_cancel(cancel).on_progress(move |progress| {
+        if progress.iteration == 5 {
+            handle.cancel();
+        }
+    });
+    let report = procrustes(&mut points, &ProcrustesParams::default(), &mut run).unwrap();
+    assert_eq!((report.outcome, report.iterations), (Outcome::Cancelled, 5));
+    assert!(measure(&points).unwrap().angle_rms_deg < before.angle_rms_deg);
+}
+
+#[test]
+fn bad_parameters_are_refused_and_leave_the_points_alone() {
+    let good = ProcrustesParams::default();
+    for params in [
+        ProcrustesParams { side: 0.0, ..good },
+        ProcrustesParams { side: f64::NAN, ..good },
+        ProcrustesParams { side: -1.5, ..good },
+        ProcrustesParams { tolerance: 0.0, ..good },
+        ProcrustesParams { tolerance: f64::INFINITY, ..good },
+        ProcrustesParams { max_iterations: 0, ..good },
+    ] {
+        let mut points = white(spaces()[0], 100, 0).unwrap();
+        let before = points.clone();
+        assert!(procrustes(&mut points, &params, &mut RunContext::default()).is_err());
+        assert_eq!(points, before);
+    }
+    for size in [[0.0, 1.0], [1.0, -1.0], [f64::NAN, 1.0], [1.0, f64::INFINITY], [1.0, 1e9]] {
+        assert!(Torus::new([0.0, 0.0], size).is_err() && Rectangle::new([0.0, 0.0], size).is_err());
+    }
+    assert!(Torus::new([1e9, 0.0], [1e-9, 1e-9]).is_err());
+    assert!(Torus::new([f64::NAN, 0.0], [1.0, 1.0]).is_err());
+    assert!(white(torus([1e12, 0.0], [1.0, 1.0]), 1_000_000, 0).is_err());
+    assert!(white(spaces()[0], 0, 0).is_err());
+    let outside = PointSet::new(spaces()[3], vec![[0.5, 0.5], [1.5, 0.0]]).unwrap_err();
+    assert!(outside.to_string().starts_with("point 1 is (1.5, 0), outside"));
+}
+
+#[test]
+fn starts_have_exactly_n_distinct_points_inside() {
+    for space in spaces() {
+        for n in [1, 2, 3, 7, 12, 100, 997] {
+            for points in [white(space, n, 1), jittered(space, n, 1), hexagonal(space, n)] {
+                let mut points = points.unwrap();
+                for _ in 0..2 {
+                    assert_eq!((points.n_points(), n_distinct(&points)), (n, n), "{space}, {n}");
+                    assert!(points.positions().iter().all(|&p| is_inside(&space, p)), "{space}, {n}");
+                    warp(&mut points);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn seeds_differ_and_repeat() {
+    let make = |seed| white(spaces()[0], 100, seed).unwrap();
+    assert_eq!(make(3), make(3));
+    assert_ne!(make(3), make(4));
+}
+
+#[test]
+fn the_hexagonal_lattice_has_the_measures_of_theory() {
+    let points = hexagonal(torus([0.0, 0.0], [1.0, 3f64.sqrt()]), 2 * 40 * 40).unwrap();
+    let m = measure(&points).unwrap();
+    for (found, expected) in [
+        (m.min_distance, 1.0),
+        (m.mean_distance, 1.0),
+        (m.coverage_radius, 1.0 / 3f64.sqrt()),
+        (m.bond_order, 1.0),
+        (m.bond_order_global, 1.0),
+        (m.triangle_quality, 1.0),
+        (m.min_angle_deg, 60.0),
+        (m.max_angle_deg, 60.0),
+        (m.angle_rms_deg + 1.0, 1.0),
+        (m.capacity_sd + 1.0, 1.0),
+        (m.capacity_max_deviation + 1.0, 1.0),
+    ] {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{m:?}");
+    }
+    assert_eq!(m.valence.into_iter().collect::<Vec<_>>(), [(6, 3200)]);
+    assert_eq!(m.obtuse_fraction, 0.0);
+}
+
+#[test]
+fn voronoi_cells_fill_the_domain_and_triangles_too() {
+    let area = |polygon: &[[f64; 2]]| {
+        let next = polygon.iter().cycle().skip(1);
+        let [x, y] = polygon.first().copied().unwrap_or_default();
+        0.5 * polygon.iter().zip(next).map(|(a, b)| (a[0] - x) * (b[1] - y) - (b[0] - x) * (a[1] - y)).sum::<f64>()
+    };
+    for space in spaces() {
+        for n in [3, 8, 60, 2000] {
+            let mut points = white(space, n, 6).unwrap();
+            for _ in 0..2 {
+                let mesh = mesh(&points).unwrap();
+                let cells: f64 = mesh.cells.iter().map(|cell| area(cell)).sum();
+                assert!((cells / space.area() - 1.0).abs() < 1e-5, "{space}, {n}: {}", cells / space.area());
+                let triangles: f64 = mesh.corners.iter().map(|corners| area(corners)).sum();
+                assert!(triangles / space.area() < 1.0 + 1e-5, "{space}, {n}");
+                Method::ALL()[0].run(&mut points);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_point_that_is_there_twice_is_counted_and_has_distance_zero() {
+    let mut positions = white(spaces()[0], 100, 1).unwrap().positions().to_vec();
+    let plain = measure(&PointSet::new(spaces()[0], positions.clone()).unwrap()).unwrap();
+    positions.push(positions[17]);
+    let m = measure(&PointSet::new(spaces()[0], positions).unwrap()).unwrap();
+    assert_eq!((m.n_points, m.coincident_points, m.min_distance), (101, 1, 0.0));
+    assert_eq!(m.angle_rms_deg, plain.angle_rms_deg);
+    assert!(m.mean_distance < plain.mean_distance);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(60) })]
+    #[test]
+    fn any_points_in_any_domain_are_optimised(
+        width in -12..12i32, aspect in -4.0..4.0f64, seed in 0..1000u64, n in 3..60usize, side in 0.5..2.0f64, which in 0..4usize,
+    ) {
+        let size = [10f64.powi(width), 10f64.powi(width) * aspect.exp()];
+        let space = if which % 2 == 0 { torus([-size[1], size[0]], size) } else { rectangle([-size[1], size[0]], size) };
+        let mode = if which < 2 { Mode::Paper } else { Mode::Fast };
+        let mut points = white(space, n, seed).unwrap();
+        let params = ProcrustesParams { side, mode, ..ProcrustesParams::default() };
+        let report = procrustes(&mut points, &params, &mut RunContext::default()).unwrap();
+        prop_assert_eq!(report.inverted_triangles, 0);
+        prop_assert_eq!(n_distinct(&points), n);
+        prop_assert!(points.positions().iter().all(|&p| is_inside(&space, p)));
+    }
+}
