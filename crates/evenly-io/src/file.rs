@@ -1,0 +1,143 @@
+//! Files and streams: read whole, written whole or not at all.
+
+use std::ffi::OsStr;
+use std::io::{Read as _, Write as _};
+use std::path::{Path, PathBuf};
+
+use evenly::PointSet;
+
+use crate::figure::{Draw, figure};
+use crate::{Error, Format, npy, raster, text};
+
+/// The longer side of a picture, in pixels.
+const PNG_SIDE: f64 = 1600.0;
+
+/// Reads points from a file, or from stdin for `-`. Numpy arrays are known by their first bytes, all else is text.
+///
+/// # Errors
+/// [`Error`] with the file's name, and the line where there is one.
+pub fn read_positions(path: &Path) -> Result<Vec<[f64; 2]>, Error> {
+    let name = display_name(path, "stdin");
+    let mut bytes = Vec::new();
+    if path == OsStr::new("-") {
+        std::io::stdin().lock().read_to_end(&mut bytes).map_err(Error::io(&name))?;
+    } else {
+        bytes = std::fs::read(path).map_err(Error::io(&name))?;
+    }
+    if bytes.starts_with(b"\x93NUMPY") { npy::read(&name, &bytes) } else { text::read(&name, &bytes) }
+}
+
+/// Where an output goes, checked before the work begins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    path: PathBuf,
+    format: Format,
+    may_overwrite: bool,
+}
+
+impl Target {
+    /// A file, or stdout for `-`. The format is the file's ending unless it is given; for stdout it is text unless given.
+    ///
+    /// # Errors
+    /// An unknown ending, a file that exists (unless it may be overwritten), a folder that does not exist or cannot be written.
+    pub fn new(path: &Path, format: Option<Format>, may_overwrite: bool) -> Result<Self, Error> {
+        let is_stdout = path == OsStr::new("-");
+        let format = match format {
+            Some(format) => format,
+            None if is_stdout => Format::Txt,
+            None => Format::of_path(path)?,
+        };
+        let target = Self { path: path.to_owned(), format, may_overwrite };
+        if !is_stdout {
+            target.check_writable()?;
+        }
+        Ok(target)
+    }
+
+    /// A file of any content, whatever its ending.
+    ///
+    /// # Errors
+    /// As [`Self::new`], but for the ending.
+    pub fn any(path: &Path, may_overwrite: bool) -> Result<Self, Error> {
+        Self::new(path, Some(Format::Txt), may_overwrite)
+    }
+
+    /// Whether it is stdout.
+    pub fn is_stdout(&self) -> bool {
+        self.path == OsStr::new("-")
+    }
+
+    /// The name for messages.
+    pub fn name(&self) -> String {
+        display_name(&self.path, "stdout")
+    }
+
+    /// What will be written.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    fn check_writable(&self) -> Result<(), Error> {
+        if self.path.is_dir() {
+            return Err(Error::content(self.name(), "this is a directory; name a file in it"));
+        }
+        if !self.may_overwrite && self.path.exists() {
+            return Err(Error::Exists(self.name()));
+        }
+        self.temporary().map(drop)
+    }
+
+    /// An empty file beside the target, gone when dropped.
+    fn temporary(&self) -> Result<tempfile::NamedTempFile, Error> {
+        let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".evenly-");
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        builder.tempfile_in(folder).map_err(Error::io(&self.name()))
+    }
+
+    /// Writes everything: to a temporary file that then takes the target's name, or to stdout.
+    ///
+    /// # Errors
+    /// What the operating system says; the target is then as it was before.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), Error> {
+        let name = self.name();
+        if self.is_stdout() {
+            let mut stdout = std::io::stdout().lock();
+            let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
+            return match written {
+                // Whoever reads has seen enough.
+                Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+                written => written.map_err(Error::io(&name)),
+            };
+        }
+        let mut file = self.temporary()?;
+        file.write_all(bytes).and_then(|()| file.as_file().sync_all()).map_err(Error::io(&name))?;
+        let kept = if self.may_overwrite { file.persist(&self.path) } else { file.persist_noclobber(&self.path) };
+        kept.map(drop).map_err(|e| match e.error.kind() {
+            std::io::ErrorKind::AlreadyExists => Error::Exists(name),
+            _ => Error::Io { name, source: e.error },
+        })
+    }
+}
+
+/// Writes points, or a figure of them, as the target's format has it. The recipe goes along where the format has room for a comment.
+///
+/// # Errors
+/// As [`Target::write`]; [`Error::Points`] for a figure of points that cannot be triangulated.
+pub fn write_points(points: &PointSet, draw: &[Draw], recipe: &str, target: &Target) -> Result<(), Error> {
+    let positions = points.positions();
+    let bytes = match target.format {
+        Format::Txt => text::write_txt(positions, recipe).into_bytes(),
+        Format::Csv => text::write_csv(positions).into_bytes(),
+        Format::Npy => npy::write(positions).map_err(Error::io(&target.name()))?,
+        Format::Svg => figure(points, draw, recipe)?.into_bytes(),
+        Format::Png => raster::png(&figure(points, draw, recipe)?, PNG_SIDE, recipe).map_err(|e| Error::content(target.name(), e))?,
+    };
+    target.write(&bytes)
+}
+
+fn display_name(path: &Path, stream: &str) -> String {
+    if path == OsStr::new("-") { stream.into() } else { path.display().to_string() }
+}

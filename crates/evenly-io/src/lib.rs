@@ -1,0 +1,16 @@
+//! Everything of evenly that touches files: points in and out, figures out.
+//!
+//! A file is written whole or not at all; an error names the file, the line and the value.
+
+mod error;
+mod figure;
+mod file;
+mod format;
+mod npy;
+mod raster;
+mod text;
+
+pub use error::Error;
+pub use figure::{Draw, figure};
+pub use file::{Target, read_positions, write_points};
+pub use format::Format;

@@ -1,0 +1,72 @@
+//! Points as a numpy array of shape (n, 2).
+
+use npyz::{NpyFile, Order, WriterBuilder as _};
+
+use crate::Error;
+
+/// Reads points from the bytes of the `.npy` file `name`: float64 or float32, either order.
+pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
+    let problem = |text: String| Error::content(name, text);
+    let file = NpyFile::new(bytes).map_err(|e| problem(format!("this is no .npy file: {e}")))?;
+    let &[n_rows, 2] = file.shape() else {
+        return Err(problem(format!("its shape is {:?}, expected (n, 2)", file.shape())));
+    };
+    if n_rows == 0 {
+        return Err(problem("there are no points in it".into()));
+    }
+    if n_rows > bytes.len() as u64 {
+        return Err(problem(format!("its header promises {n_rows} points, but the file is too short")));
+    }
+    let order = file.order();
+    let kind = file.dtype().descr();
+    let cut_short = |e: std::io::Error| problem(format!("it cannot be read to its end: {e}"));
+    let numbers: Vec<f64> = if kind.contains("f8") {
+        file.into_vec::<f64>().map_err(cut_short)?
+    } else if kind.contains("f4") {
+        file.into_vec::<f32>().map_err(cut_short)?.into_iter().map(f64::from).collect()
+    } else {
+        return Err(problem(format!("its numbers are {kind}, expected float64 or float32")));
+    };
+    let points: Vec<[f64; 2]> = match order {
+        Order::C => numbers.chunks_exact(2).map(|row| [row[0], row[1]]).collect(),
+        Order::Fortran => {
+            let (x, y) = numbers.split_at(numbers.len() / 2);
+            x.iter().zip(y).map(|(&x, &y)| [x, y]).collect()
+        }
+    };
+    match points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        Some(row) => Err(problem(format!("row {row} is ({}, {}), which is not finite", points[row][0], points[row][1]))),
+        None => Ok(points),
+    }
+}
+
+/// Writes float64 in C order.
+pub(crate) fn write(points: &[[f64; 2]]) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(16 * points.len() + 128);
+    let shape = [points.len() as u64, 2];
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut bytes).begin_nd()?;
+    writer.extend(points.iter().flatten())?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_array_survives_writing_and_reading() {
+        let points = vec![[0.1, -2.5], [1e300, f64::MIN_POSITIVE], [3.0, 4.0]];
+        assert_eq!(read("p.npy", &write(&points).unwrap()).unwrap(), points);
+    }
+
+    #[test]
+    fn broken_arrays_are_named() {
+        let whole = write(&[[1.0, 2.0], [3.0, 4.0]]).unwrap();
+        let message = |bytes: &[u8]| read("p.npy", bytes).unwrap_err().to_string();
+        assert!(message(&whole[..whole.len() - 4]).starts_with("p.npy: it cannot be read to its end"));
+        assert!(message(b"1 2\n3 4\n").starts_with("p.npy: this is no .npy file"));
+        assert!(message(&write(&[]).unwrap()).ends_with("there are no points in it"));
+        assert!(message(&write(&[[1.0, f64::NAN]]).unwrap()).starts_with("p.npy: row 0 is (1, NaN)"));
+    }
+}
