@@ -1,0 +1,279 @@
+//! The arguments: each flag is described here once, for the help, the man page and the completions.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use evenly::{MAX_POINTS, Mode, ProcrustesParams, Rectangle, Space, Torus};
+use evenly_io::{Draw, Format};
+
+const EXAMPLES: &str = "\
+Examples:
+  evenly generate -n 10000 --method procrustes -o points.svg
+  evenly generate -n 10000 --seed 7 -o points.txt --report run.json
+  evenly optimize points.csv --size 640,480 -o better.csv
+  evenly analyze better.csv --size 640,480 --json";
+
+/// Spreads points evenly, but not regularly: blue noise.
+#[derive(Parser)]
+#[command(name = "evenly", version, after_help = EXAMPLES, max_term_width = 110)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Make points from nothing
+    Generate(Generate),
+    /// Make better points from points
+    Optimize(Optimize),
+    /// Measure points: the proof
+    Analyze(Analyze),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, in roff
+    Man,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example:\n  evenly generate -n 10000 --method procrustes -o points.svg --draw valence,points")]
+pub struct Generate {
+    /// How many points, exactly: 1 to 40 million
+    #[arg(short, long, value_name = "N", value_parser = parse_count)]
+    pub n_points: usize,
+    /// How they are made: by an optimiser, or as one of its starts
+    #[arg(long, value_enum, default_value = "procrustes")]
+    pub method: GenerateMethod,
+    /// What an optimiser starts from
+    #[arg(long, value_enum, default_value = "white")]
+    pub start: Start,
+    /// The same seed gives the same points
+    #[arg(short, long, value_name = "SEED", default_value_t = 0)]
+    pub seed: u64,
+    #[command(flatten)]
+    pub space: SpaceArgs,
+    #[command(flatten)]
+    pub procrustes: ProcrustesArgs,
+    #[command(flatten)]
+    pub run: RunArgs,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example:\n  evenly optimize in.csv --space rect --size 640,480 -o out.csv")]
+pub struct Optimize {
+    /// Points as .txt, .csv or .npy; - is stdin
+    pub input: PathBuf,
+    /// How they are improved
+    #[arg(long, value_enum, default_value = "procrustes")]
+    pub method: OptimizeMethod,
+    #[command(flatten)]
+    pub space: SpaceArgs,
+    #[command(flatten)]
+    pub procrustes: ProcrustesArgs,
+    #[command(flatten)]
+    pub run: RunArgs,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example:\n  evenly analyze points.txt --json --plot valence.png --draw valence,points")]
+pub struct Analyze {
+    /// Points as .txt, .csv or .npy; - is stdin
+    pub input: PathBuf,
+    #[command(flatten)]
+    pub space: SpaceArgs,
+    /// Print the measures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Draw the points, as .svg or .png
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// The figure's layers
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "points", requires = "plot")]
+    pub draw: Vec<DrawArg>,
+    /// Overwrite an existing figure
+    #[arg(long)]
+    pub force: bool,
+    /// Threads; the result does not depend on them [default: all]
+    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+#[derive(Args)]
+pub struct SpaceArgs {
+    /// The domain: torus (periodic, its sets tile the plane) or rect (bounded)
+    #[arg(long, value_enum, default_value = "torus")]
+    pub space: SpaceKind,
+    /// Width and height
+    #[arg(long, value_name = "W,H", default_value = "1,1", value_parser = parse_pair, allow_hyphen_values = true)]
+    pub size: [f64; 2],
+    /// Lower left corner
+    #[arg(long, value_name = "X,Y", default_value = "0,0", value_parser = parse_pair, allow_hyphen_values = true)]
+    pub origin: [f64; 2],
+}
+
+#[derive(Args)]
+pub struct ProcrustesArgs {
+    /// paper: plain steps, the energy never rises; fast: momentum
+    #[arg(long, value_enum, default_value = "fast", help_heading = "Procrustes")]
+    pub mode: ModeArg,
+    /// Side of the model triangle in hexagonal spacings, good within 1 to 1.625
+    #[arg(long, value_name = "D", default_value_t = ProcrustesParams::default().side, allow_negative_numbers = true, help_heading = "Procrustes")]
+    pub side: f64,
+    /// Stop when an iteration gains less than this share of the domain's area
+    #[arg(long, value_name = "T", default_value_t = ProcrustesParams::default().tolerance, allow_negative_numbers = true, help_heading = "Procrustes")]
+    pub tolerance: f64,
+    /// Stop after so many iterations in any case
+    #[arg(short, long, value_name = "I", default_value_t = ProcrustesParams::default().max_iterations, help_heading = "Procrustes")]
+    pub iterations: usize,
+    /// Keep the start's own long density waves; without it white noise, and any input, is evened out first
+    #[arg(long, help_heading = "Procrustes")]
+    pub no_warp: bool,
+}
+
+#[derive(Args)]
+pub struct RunArgs {
+    /// Where the points go: .txt .csv .npy, or as a figure .svg .png; - is stdout
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// The output's format, if its name does not tell
+    #[arg(long, value_parser = parse_format)]
+    pub format: Option<Format>,
+    /// A figure's layers
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "LAYERS")]
+    pub draw: Option<Vec<DrawArg>>,
+    /// Write the run's whole record, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Print the run's whole record on stdout, as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Overwrite existing files
+    #[arg(long)]
+    pub force: bool,
+    /// Threads; the result does not depend on them [default: all]
+    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// Say nothing but errors
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Say more
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum GenerateMethod {
+    /// Procrustes analysis (Papazov and Hege)
+    Procrustes,
+    /// Independent uniform points
+    White,
+    /// One point in each cell of a grid
+    Jittered,
+    /// The hexagonal lattice
+    Hexagonal,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum OptimizeMethod {
+    /// Procrustes analysis (Papazov and Hege)
+    Procrustes,
+    /// Even out long density waves, and nothing else
+    Warp,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Start {
+    /// Independent uniform points
+    White,
+    /// One point in each cell of a grid
+    Jittered,
+    /// The hexagonal lattice
+    Hexagonal,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum SpaceKind {
+    /// Opposite sides are one
+    Torus,
+    /// Bounded
+    #[value(alias = "rectangle")]
+    Rect,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum ModeArg {
+    /// Plain steps
+    Paper,
+    /// Momentum
+    Fast,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum DrawArg {
+    /// The points
+    Points,
+    /// The Delaunay triangulation
+    Delaunay,
+    /// The Voronoi diagram
+    Voronoi,
+    /// Voronoi cells coloured by their number of neighbours
+    Valence,
+}
+
+impl From<DrawArg> for Draw {
+    fn from(layer: DrawArg) -> Self {
+        match layer {
+            DrawArg::Points => Self::Points,
+            DrawArg::Delaunay => Self::Delaunay,
+            DrawArg::Voronoi => Self::Voronoi,
+            DrawArg::Valence => Self::Valence,
+        }
+    }
+}
+
+impl SpaceArgs {
+    pub fn space(&self) -> Result<Space, evenly::Error> {
+        Ok(match self.space {
+            SpaceKind::Torus => Torus::new(self.origin, self.size)?.into(),
+            SpaceKind::Rect => Rectangle::new(self.origin, self.size)?.into(),
+        })
+    }
+}
+
+impl ProcrustesArgs {
+    pub fn params(&self) -> ProcrustesParams {
+        let mode = match self.mode {
+            ModeArg::Paper => Mode::Paper,
+            ModeArg::Fast => Mode::Fast,
+        };
+        ProcrustesParams { mode, side: self.side, tolerance: self.tolerance, max_iterations: self.iterations }
+    }
+}
+
+fn parse_count(text: &str) -> Result<usize, String> {
+    let number = text.parse::<usize>().ok().or_else(|| {
+        // 1e6 is a count too.
+        let number = text.parse::<f64>().ok()?;
+        (number.fract() == 0.0 && (0.0..1e15).contains(&number)).then_some(number as usize)
+    });
+    match number {
+        Some(n) if (1..=MAX_POINTS).contains(&n) => Ok(n),
+        _ => Err(format!("it must be a whole number from 1 to {MAX_POINTS}")),
+    }
+}
+
+fn parse_pair(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Vec<f64> = text.split(',').map_while(|number| number.trim().parse().ok()).collect();
+    match numbers[..] {
+        [a, b] if text.split(',').count() == 2 => Ok([a, b]),
+        _ => Err("it must be two numbers with a comma between them".into()),
+    }
+}
+
+fn parse_format(text: &str) -> Result<Format, String> {
+    let names: Vec<&str> = Format::ALL.iter().map(|&(name, _)| name).collect();
+    Format::from_name(text).ok_or_else(|| format!("it must be one of {}", names.join(", ")))
+}

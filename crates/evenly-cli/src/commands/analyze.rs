@@ -1,0 +1,55 @@
+//! `evenly analyze`: the proof.
+
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+use anyhow::{Context as _, bail};
+use evenly::{Measures, measure};
+use evenly_io::{Draw, Format, Target, write_points};
+
+use super::optimize::{read, wrapped_note};
+use crate::args::Analyze;
+use crate::{record, session};
+
+pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
+    let space = args.space.space()?;
+    let plot = match &args.plot {
+        Some(path) => Some(Target::new(path, None, args.force)?),
+        None => None,
+    };
+    if let Some(plot) = plot.as_ref().filter(|plot| plot.format().holds_points()) {
+        bail!("{}: a figure is .svg or .png", plot.name());
+    }
+    let (points, n_outside) = read(&args.input, space)?;
+    if let Some(note) = wrapped_note(&n_outside, &space) {
+        eprintln!("note: {note}");
+    }
+    let name = || args.input.display().to_string();
+    let measures = session::pool(args.threads)?.install(|| measure(&points)).with_context(name)?;
+    if let Some(plot) = &plot {
+        let layers: Vec<Draw> = args.draw.iter().map(|&layer| layer.into()).collect();
+        write_points(&points, &layers, &record::recipe(None), plot).with_context(name)?;
+    }
+    let text = if args.json { serde_json::to_string_pretty(&measures)? + "\n" } else { table(&measures) };
+    Target::new("-".as_ref(), Some(Format::Txt), false)?.write(text.as_bytes())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A line a measure, in the names of the JSON.
+fn table(measures: &Measures) -> String {
+    let mut text = String::new();
+    if let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(measures) {
+        for (name, value) in &fields {
+            let value = match value {
+                serde_json::Value::Number(number) if number.is_f64() => format!("{:.5}", number.as_f64().unwrap_or(f64::NAN)),
+                serde_json::Value::Object(counts) => {
+                    counts.iter().map(|(key, count)| format!("{key}: {count}")).collect::<Vec<_>>().join(", ")
+                }
+                serde_json::Value::Null => "infinite".into(),
+                other => other.to_string(),
+            };
+            let _ = writeln!(text, "{name:<24} {value}");
+        }
+    }
+    text
+}

@@ -1,0 +1,6 @@
+//! The verbs, one file each.
+
+pub mod analyze;
+pub mod generate;
+pub mod optimize;
+pub mod shell;

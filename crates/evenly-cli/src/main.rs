@@ -1,0 +1,52 @@
+//! The command line of evenly: stdout is data, stderr is talk.
+//!
+//! Exit codes: 0 done; 1 done, but what was asked for was not reached (the best state is written, and said); 2 bad usage or input;
+//! 130 interrupted, best state written.
+
+mod args;
+mod commands;
+mod record;
+mod session;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+use clap::error::ErrorKind;
+
+use args::{Cli, Command};
+
+/// Bad usage or input.
+const BAD_INPUT: u8 = 2;
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error),
+    };
+    let done = match &cli.command {
+        Command::Generate(args) => commands::generate::run(args),
+        Command::Optimize(args) => commands::optimize::run(args),
+        Command::Analyze(args) => commands::analyze::run(args),
+        Command::Completions { shell } => commands::shell::completions(*shell),
+        Command::Man => commands::shell::man(),
+    };
+    done.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        ExitCode::from(BAD_INPUT)
+    })
+}
+
+/// Help goes out as it is; an error becomes one line.
+fn usage(error: &clap::Error) -> ExitCode {
+    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        return if error.print().is_ok() { ExitCode::SUCCESS } else { ExitCode::from(BAD_INPUT) };
+    }
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        eprint!("{error}");
+        return ExitCode::from(BAD_INPUT);
+    }
+    let text = error.to_string();
+    let what: Vec<&str> = text.lines().take_while(|line| !line.trim().is_empty()).map(str::trim).collect();
+    eprintln!("{}; see --help", what.join(" "));
+    ExitCode::from(BAD_INPUT)
+}

@@ -1,0 +1,40 @@
+//! A run's whole record, for `--report` and `--json`; and its recipe, for files with room for a comment.
+
+use std::collections::BTreeMap;
+
+use evenly::{Measures, ProcrustesParams, Report, Space};
+use serde::Serialize;
+
+#[derive(Serialize)]
+pub struct Record {
+    pub version: &'static str,
+    pub command: String,
+    pub method: String,
+    pub seed: Option<u64>,
+    pub space: Space,
+    pub n_points: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parameters: Option<ProcrustesParams>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub run: Option<Report>,
+    /// Wall time of each phase.
+    pub seconds: BTreeMap<&'static str, f64>,
+    /// Absent for fewer than three points, or all on one line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measures: Option<Measures>,
+    pub notes: Vec<String>,
+}
+
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// How an output was made: version, command, seed.
+pub fn recipe(seed: Option<u64>) -> String {
+    let seed = seed.map_or_else(String::new, |seed| format!(" (seed {seed})"));
+    format!("evenly {VERSION}: {}{seed}", command())
+}
+
+/// The command as it was given, without the way to the program.
+pub fn command() -> String {
+    let words = std::env::args().skip(1).map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
+    std::iter::once("evenly".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}

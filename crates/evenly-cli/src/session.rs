@@ -1,0 +1,244 @@
+//! One run from the command line: threads, progress, Ctrl-C, the clock, and what is written at the end.
+
+use std::collections::BTreeMap;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context as _, bail};
+use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, ProcrustesParams, Progress, Report, RunContext, measure, procrustes, warp};
+use evenly_io::{Draw, Target, write_points};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::args::RunArgs;
+use crate::record::{self, Record};
+
+/// Interrupted; the best state is written.
+const INTERRUPTED: u8 = 130;
+/// Done, but what was asked for was not reached.
+const NOT_REACHED: u8 = 1;
+
+pub struct Session<'a> {
+    args: &'a RunArgs,
+    seed: Option<u64>,
+    output: Target,
+    report: Option<Target>,
+    draw: Vec<Draw>,
+    pool: rayon::ThreadPool,
+    cancel: CancelToken,
+    seconds: BTreeMap<&'static str, f64>,
+    notes: Vec<String>,
+    parameters: Option<ProcrustesParams>,
+}
+
+/// Threads for rayon: as many as asked for, or as there are cores.
+pub fn pool(threads: Option<u16>) -> anyhow::Result<rayon::ThreadPool> {
+    let n_threads = threads.map_or(0, usize::from);
+    rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().context("no threads")
+}
+
+impl<'a> Session<'a> {
+    /// Checks everything that can be checked before the work begins.
+    pub fn new(args: &'a RunArgs, seed: Option<u64>) -> anyhow::Result<Self> {
+        let output = Target::new(&args.output, args.format, args.force)?;
+        if args.draw.is_some() && output.format().holds_points() {
+            bail!("--draw needs a figure, .svg or .png; {} is none", output.name());
+        }
+        if args.json && output.is_stdout() {
+            bail!("--json and the points cannot both go to stdout; name a file with -o, or with --report");
+        }
+        let report = match &args.report {
+            Some(path) => Some(Target::any(path, args.force)?),
+            None => None,
+        };
+        if report.as_ref().is_some_and(|report| report.name() == output.name()) {
+            bail!("{}: the points and the report cannot go to the same file", output.name());
+        }
+        let draw = args.draw.iter().flatten().map(|&layer| layer.into()).collect::<Vec<Draw>>();
+        let cancel = CancelToken::default();
+        let handler = cancel.clone();
+        let on_interrupt = move || {
+            if handler.is_cancelled() {
+                // Asked twice: at once, and nothing is written.
+                std::process::exit(i32::from(INTERRUPTED));
+            }
+            handler.cancel();
+        };
+        ctrlc::set_handler(on_interrupt).context("no handler for Ctrl-C")?;
+        Ok(Self {
+            args,
+            seed,
+            output,
+            report,
+            draw: if draw.is_empty() { vec![Draw::Points] } else { draw },
+            pool: pool(args.threads)?,
+            cancel,
+            seconds: BTreeMap::new(),
+            notes: Vec::new(),
+            parameters: None,
+        })
+    }
+
+    /// Tells the user something, and the record.
+    pub fn note(&mut self, note: String) {
+        if !self.args.quiet {
+            eprintln!("note: {note}");
+        }
+        self.notes.push(note);
+    }
+
+    /// Runs a phase on the session's threads, and takes its time.
+    pub fn time<T: Send>(&mut self, phase: &'static str, work: impl FnOnce() -> T + Send) -> T {
+        let start = Instant::now();
+        let done = self.pool.install(work);
+        *self.seconds.entry(phase).or_default() += start.elapsed().as_secs_f64();
+        done
+    }
+
+    /// Optimises points, and finishes.
+    pub fn procrustes(mut self, mut points: PointSet, params: &ProcrustesParams, is_warped: bool) -> anyhow::Result<ExitCode> {
+        self.parameters = Some(*params);
+        let is_warped = is_warped && points.n_points() >= 3;
+        if is_warped {
+            self.time("warp", || warp(&mut points));
+        }
+        let bar = self.bar();
+        let mut clock = PhaseClock::default();
+        let cancel = self.cancel.clone();
+        let done = self.pool.install(|| {
+            let on_progress = |progress: Progress| {
+                clock.enter(progress.phase);
+                show(&bar, progress);
+            };
+            procrustes(&mut points, params, &mut RunContext::default().on_progress(on_progress).with_cancel(cancel))
+        });
+        bar.finish_and_clear();
+        let report = done?;
+        clock.stop();
+        self.seconds.extend(clock.seconds);
+        for note in &report.notes {
+            self.note(note.clone());
+        }
+        if report.coincident_points > 0 {
+            self.note(format!("{} points shared their place with another and were moved apart", report.coincident_points));
+        }
+        if report.was_collinear {
+            self.note("all points lay on one line and were spread first".into());
+        }
+        self.finish(points, "procrustes", Some(report))
+    }
+
+    /// Measures the points, writes them and the record, and says how it went.
+    pub fn finish(mut self, points: PointSet, method: &str, run: Option<Report>) -> anyhow::Result<ExitCode> {
+        let is_wanted = !self.args.quiet || self.args.json || self.report.is_some();
+        let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
+        let recipe = record::recipe(self.seed);
+        let start = Instant::now();
+        write_points(&points, &self.draw, &recipe, &self.output)?;
+        self.seconds.insert("write", start.elapsed().as_secs_f64());
+        if !self.args.quiet {
+            self.summarize(&points, run.as_ref(), measures.as_ref());
+        }
+        let outcome = run.as_ref().map(|run| run.outcome);
+        let record = Record {
+            version: record::VERSION,
+            command: record::command(),
+            method: method.to_owned(),
+            seed: self.seed,
+            space: *points.space(),
+            n_points: points.n_points(),
+            parameters: self.parameters,
+            run,
+            seconds: self.seconds,
+            measures,
+            notes: self.notes,
+        };
+        let text = serde_json::to_string_pretty(&record)? + "\n";
+        if let Some(report) = &self.report {
+            report.write(text.as_bytes())?;
+        }
+        if self.args.json {
+            Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
+        }
+        Ok(match outcome {
+            _ if self.cancel.is_cancelled() => ExitCode::from(INTERRUPTED),
+            Some(Outcome::IterationLimit) => ExitCode::from(NOT_REACHED),
+            _ => ExitCode::SUCCESS,
+        })
+    }
+
+    fn summarize(&self, points: &PointSet, run: Option<&Report>, measures: Option<&Measures>) {
+        let seconds: f64 = self.seconds.values().sum();
+        let how = match run.map(|run| (run.outcome, run.iterations)) {
+            Some((Outcome::Converged, n)) => format!(", converged in {n} iterations"),
+            Some((Outcome::IterationLimit, n)) => format!(", not converged in {n} iterations"),
+            Some((Outcome::Cancelled, n)) => format!(", interrupted after {n} iterations"),
+            Some((Outcome::NothingToDo, _)) | None => String::new(),
+        };
+        let seed = self.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
+        eprintln!("{}: {} points{seed}{how}, {seconds:.2} s", self.output.name(), points.n_points());
+        if let Some(m) = measures {
+            eprintln!(
+                "min distance {:.3}, coverage radius {:.3}, beta {:.3}, angles {:.1} to {:.1} degrees (rms {:.2} from 60)",
+                m.min_distance, m.coverage_radius, m.beta, m.min_angle_deg, m.max_angle_deg, m.angle_rms_deg
+            );
+        }
+        if self.args.verbose {
+            let phases: Vec<String> = self.seconds.iter().map(|(phase, s)| format!("{phase} {s:.3} s")).collect();
+            eprintln!("{}", phases.join(", "));
+            if let Some(run) = run {
+                eprintln!(
+                    "{} flips, {} moves undone, {} rises of the energy, {} inverted triangles",
+                    run.flips, run.moves_undone, run.energy_rises, run.inverted_triangles
+                );
+            }
+        }
+    }
+
+    /// A bar on stderr where that is a terminal, and nothing where it is not.
+    fn bar(&self) -> ProgressBar {
+        if self.args.quiet {
+            return ProgressBar::hidden();
+        }
+        let bar = ProgressBar::new(1000);
+        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {eta} left") {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        bar
+    }
+}
+
+fn show(bar: &ProgressBar, progress: Progress) {
+    let energy = progress.energy.map_or_else(String::new, |energy| format!(", energy {energy:.5}"));
+    bar.set_message(match progress.phase {
+        Phase::Separate | Phase::Triangulate => "triangulating".to_owned(),
+        Phase::Optimize => format!("iteration {}{energy}", progress.iteration),
+    });
+    bar.set_position((1000.0 * progress.fraction) as u64);
+}
+
+/// Wall time by phase.
+#[derive(Default)]
+struct PhaseClock {
+    seconds: BTreeMap<&'static str, f64>,
+    current: Option<(&'static str, Instant)>,
+}
+
+impl PhaseClock {
+    fn enter(&mut self, phase: Phase) {
+        let name = match phase {
+            Phase::Separate => "separate",
+            Phase::Triangulate => "triangulate",
+            Phase::Optimize => "optimize",
+        };
+        if self.current.is_none_or(|(current, _)| current != name) {
+            self.stop();
+            self.current = Some((name, Instant::now()));
+        }
+    }
+
+    fn stop(&mut self) {
+        if let Some((name, start)) = self.current.take() {
+            *self.seconds.entry(name).or_default() += Duration::as_secs_f64(&start.elapsed());
+        }
+    }
+}

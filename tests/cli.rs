@@ -1,0 +1,335 @@
+//! The command line as a user meets it: what it writes, what it says, and how it ends.
+
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+struct Shell(TempDir);
+
+impl Shell {
+    fn new() -> Self {
+        Self(TempDir::new().unwrap())
+    }
+
+    fn path(&self, name: &str) -> std::path::PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).unwrap();
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).unwrap();
+        let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    fn command(&self, line: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_evenly"));
+        command.current_dir(self.0.path()).args(line.split_whitespace());
+        command
+    }
+
+    fn run(&self, line: &str) -> Output {
+        self.command(line).output().unwrap()
+    }
+
+    /// Runs a command that must succeed; returns what it printed on stdout.
+    fn ok(&self, line: &str) -> String {
+        let output = self.run(line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    }
+
+    /// Runs a command that must fail with code 2, print nothing, and say one line; returns that line.
+    fn refused(&self, line: &str) -> String {
+        let before = self.files();
+        let output = self.run(line);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{line}: {said}");
+        assert!(output.stdout.is_empty(), "{line}");
+        assert_eq!(said.lines().count(), 1, "{line}: {said}");
+        assert!(said.starts_with("error: "), "{line}: {said}");
+        assert_eq!(self.files(), before, "{line}");
+        said
+    }
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn the_readme_command_leaves_a_picture() {
+    let shell = Shell::new();
+    shell.ok("generate -n 10000 --method procrustes -o points.svg");
+    let svg = shell.read("points.svg");
+    assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+    // Points near the seam are drawn on both sides.
+    assert!((10_000..11_000).contains(&svg.matches("<circle").count()));
+    assert!(svg.contains("(seed 0)"));
+}
+
+#[test]
+fn every_format_is_written_and_the_same_points_are_read_back() {
+    let shell = Shell::new();
+    for name in ["a.txt", "a.csv", "a.npy"] {
+        shell.ok(&format!("generate -n 500 --seed 3 -q -o {name}"));
+    }
+    let measures = |name: &str| shell.ok(&format!("analyze {name} --json"));
+    assert_eq!(measures("a.txt"), measures("a.csv"));
+    assert_eq!(measures("a.txt"), measures("a.npy"));
+    assert_eq!(json(&measures("a.txt"))["n_points"], 500);
+    shell.ok("generate -n 500 -q -o a.png --draw points,delaunay,voronoi,valence");
+    assert!(fs::read(shell.path("a.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn a_seed_is_a_promise_on_any_number_of_threads() {
+    let shell = Shell::new();
+    for (name, threads) in [("a.npy", 1), ("b.npy", 2), ("c.npy", 5)] {
+        shell.ok(&format!("generate -n 20000 --seed 11 -j {threads} -q -o {name}"));
+    }
+    let bytes = |name: &str| fs::read(shell.path(name)).unwrap();
+    assert!(bytes("a.npy") == bytes("b.npy") && bytes("a.npy") == bytes("c.npy"));
+}
+
+#[test]
+fn streams_are_read_and_written() {
+    let shell = Shell::new();
+    let points = shell.ok("generate -n 100 --method white -q -o -");
+    assert_eq!(points.lines().filter(|line| !line.starts_with('#')).count(), 100);
+    let mut child =
+        shell.command("optimize - -o - --format csv").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(points.as_bytes()).unwrap();
+    let better = String::from_utf8(child.wait_with_output().unwrap().stdout).unwrap();
+    assert_eq!(better.lines().next(), Some("x,y"));
+    assert_eq!(better.lines().count(), 101);
+}
+
+#[test]
+fn optimising_improves_points_where_they_are() {
+    let shell = Shell::new();
+    let place = "--space rect --size 640,480 --origin -100,1e6";
+    shell.ok(&format!("generate -n 800 --method white {place} -o in.csv"));
+    shell.ok(&format!("optimize in.csv {place} -o out.csv"));
+    let angle = |name: &str| json(&shell.ok(&format!("analyze {name} {place} --json")))["angle_rms_deg"].as_f64().unwrap();
+    assert!(angle("in.csv") > 20.0 && angle("out.csv") < 12.0);
+    shell.ok(&format!("optimize in.csv --method warp {place} -o warped.csv"));
+    assert!(angle("warped.csv") < angle("in.csv"));
+}
+
+#[test]
+fn the_report_holds_the_whole_run() {
+    let shell = Shell::new();
+    shell.ok("generate -n 1000 --seed 5 --mode paper --side 1.25 -o a.txt --report run.json");
+    let report = json(&shell.read("run.json"));
+    assert_eq!(report["method"], "procrustes");
+    assert_eq!(report["seed"], 5);
+    assert_eq!(report["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(report["parameters"]["side"], 1.25);
+    assert_eq!(report["parameters"]["mode"], "paper");
+    assert_eq!(report["space"]["kind"], "torus");
+    assert_eq!(report["run"]["outcome"], "converged");
+    assert_eq!(report["run"]["energy_rises"], 0);
+    let energy = report["run"]["energy"].as_array().unwrap();
+    assert_eq!(energy.len() as u64, report["run"]["iterations"].as_u64().unwrap() + 1);
+    assert!(energy.windows(2).all(|pair| pair[1].as_f64() <= pair[0].as_f64()));
+    for phase in ["start", "warp", "separate", "triangulate", "optimize", "measure", "write"] {
+        assert!(report["seconds"][phase].as_f64().unwrap() >= 0.0, "{phase}");
+    }
+    assert!(report["measures"]["angle_rms_deg"].as_f64().unwrap() < 12.0);
+    let printed = json(&shell.ok("generate -n 100 -q -o b.txt --json"));
+    assert_eq!(printed["n_points"], 100);
+}
+
+#[test]
+fn analysis_has_every_measure() {
+    let shell = Shell::new();
+    shell.ok("generate -n 300 -q -o a.txt");
+    let measures = json(&shell.ok("analyze a.txt --json"));
+    let names = "n_points hex_spacing coincident_points min_distance mean_distance coverage_radius beta bond_order bond_order_psa bond_order_global \
+                 capacity_sd capacity_max_deviation angle_rms_deg triangle_quality min_angle_deg max_angle_deg obtuse_fraction valence";
+    for name in names.split_whitespace() {
+        assert!(!measures[name].is_null(), "{name}");
+    }
+    let bounded = json(&shell.ok("analyze a.txt --space rect --json --plot a.svg --draw voronoi"));
+    for name in ["border_angle_rms_deg", "interior_angle_rms_deg", "uncovered_fraction", "isolated_points"] {
+        assert!(bounded[name].is_number(), "{name}");
+    }
+    assert!(shell.read("a.svg").contains("<path"));
+    assert!(shell.ok("analyze a.txt").contains("angle_rms_deg"));
+}
+
+#[test]
+fn few_points_are_no_trouble() {
+    let shell = Shell::new();
+    for n in [1, 2, 3, 4, 7, 20] {
+        for space in ["torus", "rect"] {
+            shell.ok(&format!("generate -n {n} --space {space} -o {n}{space}.txt --report {n}{space}.json"));
+            let text = shell.read(&format!("{n}{space}.txt"));
+            assert_eq!(text.lines().filter(|line| !line.starts_with('#')).count(), n);
+        }
+    }
+    let report = json(&shell.read("2torus.json"));
+    assert_eq!(report["run"]["outcome"], "nothing_to_do");
+    assert!(report["notes"][0].as_str().unwrap().contains("nothing to optimise"));
+}
+
+#[test]
+fn what_is_not_reached_is_written_and_said() {
+    let shell = Shell::new();
+    let output = shell.run("generate -n 1000 -i 3 -o a.txt");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("not converged in 3 iterations"));
+    assert!(shell.read("a.txt").lines().count() > 1000);
+}
+
+#[test]
+fn bad_input_gets_one_line_and_no_file() {
+    let shell = Shell::new();
+    shell.write("good.txt", "0.1 0.2\n0.5 0.7\n0.9 0.3\n");
+    shell.write("empty.txt", "");
+    shell.write("rubbish.txt", [0u8, 159, 146, 150, 255, 1]);
+    shell.write("nan.csv", "x,y\n0.1,0.2\nNaN,0.3\n");
+    shell.write("wide.txt", "0.1 0.2\n0.1 0.2 0.3\n");
+    shell.write("outside.txt", "0.1 0.2\n0.5 0.7\n1.9 0.3\n");
+    shell.write("two.txt", "0.1 0.2\n0.5 0.7\n");
+    shell.write("text.npy", "1 2\n");
+    shell.write("broken.npy", b"\x93NUMPY\x01\x00v\x00{'descr': '<f8'");
+    fs::create_dir(shell.path("folder")).unwrap();
+    for (line, expected) in [
+        ("optimize missing.txt -o o.txt", "missing.txt: No such file"),
+        ("optimize empty.txt -o o.txt", "empty.txt: there are no points in it"),
+        ("optimize folder -o o.txt", "folder: Is a directory"),
+        ("optimize rubbish.txt -o o.txt", "rubbish.txt: this is not text"),
+        ("optimize nan.csv -o o.txt", "nan.csv:3: NaN is not a finite number"),
+        ("optimize wide.txt -o o.txt", "wide.txt:2: 3 numbers, expected 2"),
+        ("optimize broken.npy -o o.txt", "broken.npy: this is no .npy file"),
+        ("optimize outside.txt --space rect -o o.txt", "outside.txt: point 2 is (1.9, 0.3), outside the domain 1 x 1 at (0, 0)"),
+        ("analyze two.txt", "two.txt: 2 distinct points make no triangulation"),
+        ("analyze missing.txt", "missing.txt: No such file"),
+        ("generate -n 0 -o o.txt", "'0'"),
+        ("generate -n 1e12 -o o.txt", "'1e12'"),
+        ("generate -n 2.5 -o o.txt", "'2.5'"),
+        ("generate -n -3 -o o.txt", "'-3'"),
+        ("generate -o o.txt", "--n-points"),
+        ("generate -n 10", "--output"),
+        ("generate -n 10 -o o.txt --size 0,1", "0 x 1"),
+        ("generate -n 10 -o o.txt --size NaN,1", "NaN x 1"),
+        ("generate -n 10 -o o.txt --size -1,1", "-1 x 1"),
+        ("generate -n 10 -o o.txt --size 1", "two numbers"),
+        ("generate -n 10 -o o.txt --origin inf,0", "finite"),
+        ("generate -n 10 -o o.txt --side 0", "side is 0"),
+        ("generate -n 10 -o o.txt --tolerance -1", "tolerance"),
+        ("generate -n 10 -o o.txt -i 0", "max_iterations is 0"),
+        ("generate -n 10 -o o.txt --method nonsense", "nonsense"),
+        ("generate -n 10 -o o.txt --nonsense", "--nonsense"),
+        ("generate -n 10 -o good.txt", "good.txt exists already; pass --force"),
+        ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .svg .png"),
+        ("generate -n 10 -o o", "o: no ending"),
+        ("generate -n 10 -o folder", "folder: "),
+        ("generate -n 10 -o nowhere/o.txt", "nowhere/o.txt: No such file"),
+        ("generate -n 10 -o o.txt --draw points", "--draw needs a figure"),
+        ("generate -n 10 -o - --json", "cannot both go to stdout"),
+        ("generate -n 10 -o o.txt --report o.txt", "cannot go to the same file"),
+        ("generate -n 2 -q -o o.svg --draw voronoi", "2 distinct points"),
+        ("generate -n 1000000 -o o.txt --size 1,1 --origin 1e13,0", "move the origin nearer to 0"),
+        ("optimize outside.txt -o o.txt --size 1e-200,1", "differ by more"),
+    ] {
+        let said = shell.refused(line);
+        assert!(said.contains(expected), "{line}: {said}");
+    }
+}
+
+#[test]
+fn text_that_pretends_to_be_numpy_is_still_read() {
+    let shell = Shell::new();
+    shell.write("text.npy", "0.1 0.2\n0.7 0.1\n0.5 0.9\n");
+    shell.ok("optimize text.npy -q -o o.txt");
+}
+
+#[test]
+fn points_outside_the_torus_are_wrapped_and_told() {
+    let shell = Shell::new();
+    shell.write("out.txt", "0.1 0.2\n-0.5 0.7\n1.9 0.3\n0.4 0.4\n");
+    let output = shell.run("optimize out.txt -o o.txt");
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("2 points lie outside the torus"));
+}
+
+#[test]
+fn existing_files_are_overwritten_only_by_force() {
+    let shell = Shell::new();
+    shell.write("a.txt", "precious");
+    shell.refused("generate -n 10 -o a.txt");
+    assert_eq!(shell.read("a.txt"), "precious");
+    shell.ok("generate -n 10 -o a.txt --force");
+    assert!(shell.read("a.txt").starts_with("# evenly"));
+    assert_eq!(shell.files(), ["a.txt"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_nothing_behind() {
+    let shell = Shell::new();
+    // A limit on file sizes stands in for a full disk.
+    let script = format!("ulimit -f 8; trap '' XFSZ; exec {} generate -n 10000 -q -o a.txt", env!("CARGO_BIN_EXE_evenly"));
+    let output = Command::new("sh").current_dir(shell.0.path()).args(["-c", &script]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: a.txt: "));
+    assert!(shell.files().is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_writes_the_best_state() {
+    let shell = Shell::new();
+    let line = "generate -n 300000 --mode paper --no-warp --tolerance 1e-9 -i 100000 -o a.npy --report run.json";
+    let child = shell.command(line).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = json(&shell.read("run.json"));
+    assert_eq!(report["run"]["outcome"], "cancelled");
+    assert_eq!(fs::metadata(shell.path("a.npy")).unwrap().len(), 16 * 300_000 + 128);
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    let shell = Shell::new();
+    let mut child =
+        shell.command("generate -n 50000 --method white -q -o -").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(0));
+}
+
+#[test]
+fn help_completions_and_man_page_are_there() {
+    let shell = Shell::new();
+    for verb in ["", "generate ", "optimize ", "analyze "] {
+        let short = shell.ok(&format!("{verb}-h"));
+        assert!(short.contains("Example") && short.lines().count() <= 60, "{verb}: {}", short.lines().count());
+        assert!(shell.ok(&format!("{verb}--help")).len() >= short.len());
+    }
+    for name in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        assert!(shell.ok(&format!("completions {name}")).contains("evenly"));
+    }
+    let page = shell.ok("man");
+    assert!(page.contains(".TH") && page.contains("generate") && page.contains("tolerance"));
+    assert!(shell.ok("--version").starts_with("evenly "));
+    assert!(!Path::new("o.txt").exists());
+}
