@@ -4,7 +4,7 @@
 
 use evenly::{
     CancelToken, Mode, Outcome, PointSet, ProcrustesParams, Rectangle, Report, RunContext, Space, Torus, hexagonal, jittered, measure,
-    mesh, procrustes, warp, white,
+    procrustes, tessellate, warp, white,
 };
 use proptest::prelude::*;
 
@@ -359,10 +359,10 @@ fn voronoi_cells_fill_the_domain_and_triangles_too() {
         for n in [3, 8, 60, 2000] {
             let mut points = white(space, n, 6).unwrap();
             for _ in 0..2 {
-                let mesh = mesh(&points).unwrap();
-                let cells: f64 = mesh.cells.iter().map(|cell| area(cell)).sum();
+                let tessellation = tessellate(&points).unwrap();
+                let cells: f64 = tessellation.cells.iter().map(|cell| area(cell)).sum();
                 assert!((cells / space.area() - 1.0).abs() < 1e-5, "{space}, {n}: {}", cells / space.area());
-                let triangles: f64 = mesh.corners.iter().map(|corners| area(corners)).sum();
+                let triangles: f64 = tessellation.corners.iter().map(|corners| area(corners)).sum();
                 assert!(triangles / space.area() < 1.0 + 1e-5, "{space}, {n}");
                 Method::ALL()[0].run(&mut points);
             }

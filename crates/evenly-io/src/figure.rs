@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Write as _};
 
-use evenly::{PointSet, mesh};
+use evenly::{PointSet, Tessellation, tessellate};
 
 use crate::Error;
 
@@ -42,18 +42,18 @@ pub fn figure(points: &PointSet, draw: &[Draw], recipe: &str) -> Result<String, 
     layers.dedup();
     let canvas = Canvas::new(points);
     let mut svg = canvas.begin(recipe);
-    let mesh = if layers.iter().any(|&layer| layer != Draw::Points) { Some(mesh(points)?) } else { None };
+    let tessellation = if layers.iter().any(|&layer| layer != Draw::Points) { Some(tessellate(points)?) } else { None };
     for layer in layers {
-        match (layer, &mesh) {
+        match (layer, &tessellation) {
             (Draw::Points, _) => canvas.points(&mut svg, points),
-            (Draw::Delaunay, Some(mesh)) => {
-                let corners = mesh.corners.iter().map(|c| c.as_slice());
+            (Draw::Delaunay, Some(tessellation)) => {
+                let corners = tessellation.corners.iter().map(|c| c.as_slice());
                 canvas.outlines(&mut svg, corners, "#444444");
             }
-            (Draw::Voronoi, Some(mesh)) => {
-                canvas.outlines(&mut svg, mesh.cells.iter().map(Vec::as_slice), "#888888");
+            (Draw::Voronoi, Some(tessellation)) => {
+                canvas.outlines(&mut svg, tessellation.cells.iter().map(Vec::as_slice), "#888888");
             }
-            (Draw::Valence, Some(mesh)) => canvas.valences(&mut svg, points, mesh),
+            (Draw::Valence, Some(tessellation)) => canvas.valences(&mut svg, points, tessellation),
             (_, None) => {}
         }
     }
@@ -119,11 +119,11 @@ impl Canvas {
         svg.push_str("\"/>\n");
     }
 
-    fn valences(&self, svg: &mut String, points: &PointSet, mesh: &evenly::Mesh) {
+    fn valences(&self, svg: &mut String, points: &PointSet, tessellation: &Tessellation) {
         let class = |valence: usize| valence.clamp(4, 8) - 4;
         for (index, colour) in COLOURS.iter().enumerate() {
             let _ = write!(svg, "<path fill=\"{colour}\" stroke=\"#888888\" stroke-width=\"0.2\" d=\"");
-            let cells = mesh.cells.iter().zip(&mesh.valence);
+            let cells = tessellation.cells.iter().zip(&tessellation.valence);
             for (cell, _) in cells.filter(|(_, valence)| valence.is_some_and(|n| class(n) == index)) {
                 for shift in self.images(cell, 0.0) {
                     self.outline(svg, cell, shift);
@@ -134,7 +134,7 @@ impl Canvas {
         let half = 0.34 * self.spacing;
         let width = Short((0.08 * self.spacing).max(0.1));
         let _ = write!(svg, "<path fill=\"none\" stroke=\"#000000\" stroke-width=\"{width}\" d=\"");
-        for (&p, valence) in points.positions().iter().zip(&mesh.valence) {
+        for (&p, valence) in points.positions().iter().zip(&tessellation.valence) {
             let [x, y] = self.place(p);
             if matches!(valence, Some(5 | 7)) {
                 let _ = write!(svg, "M{} {}h{}", Short(x - half), Short(y), Short(2.0 * half));

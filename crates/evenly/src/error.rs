@@ -1,4 +1,4 @@
-//! What can be wrong with an input. "Did not converge" is not here: that is data, in the [`Report`](crate::Report).
+//! What can be wrong with an input. "Did not converge" is not here: that is data, in the `Report`.
 
 use thiserror::Error;
 
@@ -55,8 +55,8 @@ pub enum Error {
         resolution: f64,
     },
     /// More points than the indices can hold.
-    #[error("{0} points are too many; at most {max} are possible", max = crate::MAX_POINTS)]
-    TooManyPoints(usize),
+    #[error("{0} points are too many; at most {1} are possible")]
+    TooManyPoints(usize, usize),
     /// Points from which no triangulation can be made: fewer than three, or all on one line.
     #[error("{0}")]
     Degenerate(String),

@@ -25,11 +25,8 @@ mod space;
 mod triangulation;
 
 pub use error::Error;
-pub use measure::{BorderMeasures, Measures, Mesh, measure, mesh};
+pub use measure::{BorderMeasures, Measures, Tessellation, measure, tessellate};
 pub use optimize::{Mode, ProcrustesParams, procrustes};
-pub use points::{PointSet, hexagonal, jittered, warp, white};
+pub use points::{MAX_POINTS, PointSet, hexagonal, jittered, warp, white};
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Space, Torus};
-
-/// The largest number of points: half-edges are counted in 32 bits, also on a finite cover of a torus.
-pub const MAX_POINTS: usize = 40_000_000;

@@ -7,9 +7,8 @@ use anyhow::{Context as _, bail};
 use evenly::{Measures, measure};
 use evenly_io::{Draw, Format, Target, write_points};
 
-use super::optimize::{read, wrapped_note};
 use crate::args::Analyze;
-use crate::{record, session};
+use crate::{input, record, session};
 
 pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
@@ -20,8 +19,8 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     if let Some(plot) = plot.as_ref().filter(|plot| plot.format().holds_points()) {
         bail!("{}: a figure is .svg or .png", plot.name());
     }
-    let (points, n_outside) = read(&args.input, space)?;
-    if let Some(note) = wrapped_note(&n_outside, &space) {
+    let (points, note) = input::read(&args.input, space)?;
+    if let Some(note) = note {
         eprintln!("note: {note}");
     }
     let name = || args.input.display().to_string();

@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::is_on_border;
-use crate::triangulation::Triangulation;
+use crate::triangulation::{BORDER, HalfEdges, Triangulation};
 
 /// Shapes of some triangles, summed up.
 #[derive(Clone)]
@@ -78,4 +77,14 @@ pub(super) fn measure(triangulation: &Triangulation) -> TriangleMeasures {
     }
     let isolated_points = is_isolated.into_iter().filter(|&is| is).count();
     TriangleMeasures { all, border, interior, isolated_points }
+}
+
+/// Marks the vertices on the border of a triangulation.
+fn is_on_border(half_edges: &HalfEdges, n_vertices: usize) -> Vec<bool> {
+    let mut marks = vec![false; n_vertices];
+    for h in (0..half_edges.origin.len()).filter(|&h| half_edges.twin[h] == BORDER) {
+        marks[half_edges.origin[h] as usize] = true;
+        marks[half_edges.target(h as u32) as usize] = true;
+    }
+    marks
 }

@@ -1,7 +1,5 @@
-//! The methods, one file each.
+//! The methods, one file each; what serves one method alone stands in a folder of its name.
 
-mod border;
-mod mesh;
 mod procrustes;
 
 pub use procrustes::{Mode, ProcrustesParams, procrustes};

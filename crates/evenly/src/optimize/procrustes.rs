@@ -14,14 +14,18 @@
 //!
 //! Cost: O(n) an iteration, the number of iterations does not grow with n. It promises no smallest distance and no regularity.
 
+mod border;
+mod flips;
+mod mesh;
+mod model;
+
 use serde::Serialize;
 
-use super::border;
-use super::mesh::Mesh;
-use crate::points::separate;
+use self::mesh::Mesh;
+use crate::error::Error;
+use crate::points::{PointSet, separate};
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
-use crate::triangulation::Triangulation;
-use crate::{Error, PointSet};
+use crate::triangulation::delaunay;
 
 /// How points are moved towards their targets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -100,7 +104,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     report.coincident_points = separated.coincident_points;
     report.was_collinear = separated.was_collinear;
     run.enter(Phase::Triangulate);
-    let mut triangulation = Triangulation::delaunay(&domain, &positions, separated.order)?;
+    let mut triangulation = delaunay(&domain, &positions, separated.order)?;
     report.triangulations = 1;
     let has_border = !domain.is_periodic && points.n_points() >= border::FEWEST;
     if has_border {

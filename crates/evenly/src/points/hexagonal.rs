@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::{PointSet, validate};
-use crate::Error;
-use crate::space::{Domain, Space};
+use super::point_set::PointSet;
+use crate::error::Error;
+use crate::space::Space;
 
 /// `n_points` points in rows, every second row shifted by half a step; a perfect hexagonal lattice where the sides allow one.
 ///
@@ -14,8 +14,8 @@ use crate::space::{Domain, Space};
 /// [`Error::InvalidParameter`] for no points, [`Error::TooManyPoints`] and [`Error::TooFine`] for more than the domain can hold.
 pub fn hexagonal(space: impl Into<Space>, n_points: usize) -> Result<PointSet, Error> {
     let space = space.into();
-    validate(&space, n_points)?;
-    let size = Domain::new(&space).size;
+    PointSet::validate(&space, n_points)?;
+    let size = space.domain().size;
     let n_rows = n_rows(n_points, size, space.is_periodic());
     let rows = (0..n_rows).flat_map(|row| {
         let n_columns = (row + 1) * n_points / n_rows - row * n_points / n_rows;

@@ -4,9 +4,10 @@
 
 use glam::DVec2;
 
-use super::{PointSet, Random, validate};
-use crate::Error;
-use crate::space::{Domain, Space};
+use super::point_set::PointSet;
+use super::random::Random;
+use crate::error::Error;
+use crate::space::Space;
 
 /// `n_points` points, one in each cell of a grid of `n_points` cells of equal area.
 ///
@@ -14,9 +15,9 @@ use crate::space::{Domain, Space};
 /// [`Error::InvalidParameter`] for no points, [`Error::TooManyPoints`] and [`Error::TooFine`] for more than the domain can hold.
 pub fn jittered(space: impl Into<Space>, n_points: usize, seed: u64) -> Result<PointSet, Error> {
     let space = space.into();
-    validate(&space, n_points)?;
+    PointSet::validate(&space, n_points)?;
     let mut random = Random::new(seed, 1);
-    let size = Domain::new(&space).size;
+    let size = space.domain().size;
     let n_rows = ((n_points as f64 * size.y / size.x).sqrt().round() as usize).clamp(1, n_points);
     let cells = (0..n_rows).flat_map(|row| {
         let (first, end) = (row * n_points / n_rows, (row + 1) * n_points / n_rows);

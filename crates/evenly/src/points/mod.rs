@@ -3,6 +3,7 @@
 mod hexagonal;
 mod jittered;
 mod order;
+mod point_set;
 mod random;
 mod separate;
 mod warp;
@@ -11,105 +12,8 @@ mod white;
 pub use hexagonal::hexagonal;
 pub use jittered::jittered;
 pub(crate) use order::hilbert_order;
+pub use point_set::{MAX_POINTS, PointSet};
 pub(crate) use random::Random;
 pub(crate) use separate::separate;
 pub use warp::warp;
 pub use white::white;
-
-use glam::DVec2;
-use rayon::prelude::*;
-
-use crate::space::{Domain, Space};
-use crate::{Error, MAX_POINTS};
-
-/// Points and the domain they live in; all finite, all inside.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PointSet {
-    space: Space,
-    positions: Vec<[f64; 2]>,
-}
-
-impl PointSet {
-    /// Takes points of any order; on a torus they are wrapped into the domain.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] and [`Error::OutsideDomain`] name the first such point, counted from 0;
-    /// [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
-    pub fn new(space: impl Into<Space>, mut positions: Vec<[f64; 2]>) -> Result<Self, Error> {
-        /// Farther out than this many periods, a point's place within its period is lost in rounding.
-        const FAR: f64 = 1e9;
-        let space = space.into();
-        if positions.len() > MAX_POINTS {
-            return Err(Error::TooManyPoints(positions.len()));
-        }
-        let (origin, size) = (space.origin(), space.size());
-        let domain = Domain::new(&space);
-        for (index, point) in positions.iter_mut().enumerate() {
-            let at = *point;
-            if !at.iter().all(|x| x.is_finite()) {
-                return Err(Error::NotFinite { index, point: at });
-            }
-            let is_inside = |axis: usize| at[axis] >= origin[axis] && at[axis] <= origin[axis] + size[axis];
-            let is_near = |axis: usize| (at[axis] / size[axis] - origin[axis] / size[axis]).abs() < FAR;
-            if space.is_periodic() && is_near(0) && is_near(1) {
-                if (0..2).any(|axis| !is_inside(axis) || at[axis] == origin[axis] + size[axis]) {
-                    *point = domain.restore(domain.normalize(at));
-                }
-            } else if !(is_inside(0) && is_inside(1)) {
-                return Err(Error::OutsideDomain { index, point: at, domain: space.to_string() });
-            }
-        }
-        Ok(Self { space, positions })
-    }
-
-    /// The domain.
-    pub fn space(&self) -> &Space {
-        &self.space
-    }
-
-    /// The points, in the order in which they were given.
-    pub fn positions(&self) -> &[[f64; 2]] {
-        &self.positions
-    }
-
-    /// How many points there are.
-    pub fn n_points(&self) -> usize {
-        self.positions.len()
-    }
-
-    /// The spacing of the hexagonal lattice with as many points, in input units.
-    pub fn hex_spacing(&self) -> f64 {
-        self.space.hex_spacing(self.n_points())
-    }
-
-    /// The domain and all positions in its normalised coordinates.
-    pub(crate) fn normalized(&self) -> (Domain, Vec<DVec2>) {
-        let domain = Domain::new(&self.space);
-        let positions = self.positions.par_iter().map(|&p| domain.normalize(p)).collect();
-        (domain, positions)
-    }
-
-    /// A set of points that lie in the normalised domain by construction.
-    pub(crate) fn from_normalized(space: Space, positions: impl Iterator<Item = DVec2>) -> Self {
-        let domain = Domain::new(&space);
-        Self { space, positions: positions.map(|q| domain.restore(domain.land(q))).collect() }
-    }
-
-    /// Moves point `order[k]` to `positions[k]`.
-    pub(crate) fn place(&mut self, domain: &Domain, order: &[u32], positions: &[DVec2]) {
-        for (&index, &q) in order.iter().zip(positions) {
-            self.positions[index as usize] = domain.restore(q);
-        }
-    }
-}
-
-/// Checks the arguments that all starting points share.
-fn validate(space: &Space, n_points: usize) -> Result<(), Error> {
-    if n_points == 0 {
-        return Err(Error::InvalidParameter { name: "n_points", value: "0".into(), expected: "1 or more" });
-    }
-    if n_points > MAX_POINTS {
-        return Err(Error::TooManyPoints(n_points));
-    }
-    space.require_resolution(n_points)
-}

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Random, hilbert_order};
+use super::order::hilbert_order;
+use super::random::Random;
 use crate::predicates::are_collinear;
 use crate::space::Domain;
 

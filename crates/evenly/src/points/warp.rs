@@ -8,7 +8,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::PointSet;
+use super::point_set::PointSet;
 
 /// Groups of up to this many points are divided by rank. More of them in a row would keep step like a grid.
 const BLOCK: usize = 16;

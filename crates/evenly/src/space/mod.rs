@@ -6,7 +6,7 @@ pub(crate) use domain::{Domain, GRID};
 
 use serde::Serialize;
 
-use crate::Error;
+use crate::error::Error;
 
 /// The largest ratio of a domain's sides: beyond it, the short side has too few bits left.
 const MAX_ASPECT: f64 = 1e6;
@@ -135,6 +135,11 @@ impl Space {
         // Side by side, so that tiny domains do not underflow.
         let [width, height] = self.size().map(|side| (side / n_points as f64).sqrt());
         width * height * (2.0 * n_points as f64 / 3f64.sqrt()).sqrt()
+    }
+
+    /// The same in normalised coordinates.
+    pub(crate) fn domain(&self) -> Domain {
+        Domain::new(self.origin(), self.size(), self.is_periodic())
     }
 
     /// Checks that f64 can tell `n_points` points apart here.

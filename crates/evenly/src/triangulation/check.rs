@@ -1,7 +1,7 @@
 //! Proofs: what a triangulation claims to be, verified from scratch with exact predicates.
 
-use super::Triangulation;
 use super::half_edges::BORDER;
+use super::mesh::Triangulation;
 
 impl Triangulation {
     /// Proves twins, orientation and Euler's formula, and on a torus that the areas sum to the domain's.
@@ -73,10 +73,13 @@ mod tests {
     use glam::DVec2;
     use proptest::prelude::*;
 
+    use super::super::delaunay::delaunay;
+    use super::super::patch::Patch;
     use super::*;
+    use crate::error::Error;
     use crate::points::{hilbert_order, separate};
-    use crate::space::{Domain, GRID};
-    use crate::{Error, PointSet, Rectangle, Space, Torus, jittered, white};
+    use crate::space::GRID;
+    use crate::{PointSet, Rectangle, Space, Torus, jittered, white};
 
     const SPACES: fn() -> [Space; 4] = || {
         [
@@ -89,10 +92,10 @@ mod tests {
 
     /// The proof of the triangulation of points given as fractions of the domain's sides.
     fn prove(space: &Space, fractions: impl IntoIterator<Item = [f64; 2]>) -> Result<Triangulation, Error> {
-        let domain = Domain::new(space);
+        let domain = space.domain();
         let points: Vec<DVec2> = fractions.into_iter().map(|p| domain.land(DVec2::from(p) * domain.size)).collect();
         let order = hilbert_order(&points, domain.size);
-        let triangulation = Triangulation::delaunay(&domain, &points, order)?;
+        let triangulation = delaunay(&domain, &points, order)?;
         assert_eq!(triangulation.check_delaunay(), Ok(()));
         let copies = triangulation.copies[0] * triangulation.copies[1];
         assert_eq!(triangulation.positions.len(), points.len() * copies as usize);
@@ -170,7 +173,7 @@ mod tests {
         assert!(mesh.check().unwrap_err().contains("turned over"));
         mesh = whole;
         let illegal = (0..mesh.half_edges.origin.len() as u32).find(|&h| {
-            mesh.half_edges.flip(h);
+            Patch::whole(&mut mesh.half_edges).flip(h);
             mesh.check().is_ok()
         });
         assert!(illegal.is_some_and(|_| mesh.check_delaunay().is_err()));
@@ -192,10 +195,10 @@ mod tests {
         #[test]
         fn nasty_sets_are_proved_or_refused(points in prop::collection::vec([nasty(), nasty()], 3..40), which in 0..4usize) {
             let space = SPACES()[which];
-            let domain = Domain::new(&space);
+            let domain = space.domain();
             let mut positions: Vec<DVec2> = points.into_iter().map(|p| domain.land(DVec2::from(p) * domain.size)).collect();
             let order = separate(&domain, &mut positions, 0.1).order;
-            match Triangulation::delaunay(&domain, &positions, order) {
+            match delaunay(&domain, &positions, order) {
                 Ok(triangulation) => prop_assert_eq!(triangulation.check_delaunay(), Ok(())),
                 Err(error) => prop_assert!(!space.is_periodic(), "{}", error),
             }

@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use super::HalfEdges;
+use super::half_edges::HalfEdges;
+use super::patch::Patch;
 
 /// Vertices in a chunk: its positions, triangles and sums fit a core's own cache together.
 const CHUNK: usize = 1 << 14;
@@ -44,14 +45,22 @@ impl Chunks {
         &self.triangles
     }
 
-    /// Cuts a slice that holds `each` items a vertex.
-    pub fn split_vertices<'a, T>(&self, slice: &'a mut [T], each: usize) -> Vec<&'a mut [T]> {
-        split(slice, &self.vertices, each)
+    /// Cuts a slice that holds an item a vertex.
+    pub fn split_vertices<'a, T>(&self, slice: &'a mut [T]) -> Vec<&'a mut [T]> {
+        split(slice, &self.vertices, 1)
     }
 
-    /// Cuts a slice that holds `each` items a triangle.
-    pub fn split_triangles<'a, T>(&self, slice: &'a mut [T], each: usize) -> Vec<&'a mut [T]> {
-        split(slice, &self.triangles, each)
+    /// Cuts a slice that holds an item a triangle.
+    pub fn split_triangles<'a, T>(&self, slice: &'a mut [T]) -> Vec<&'a mut [T]> {
+        split(slice, &self.triangles, 1)
+    }
+
+    /// Cuts a mesh.
+    pub fn patches<'a>(&self, mesh: &'a mut HalfEdges) -> Vec<Patch<'a>> {
+        let origins = split(&mut mesh.origin, &self.triangles, 3);
+        let twins = split(&mut mesh.twin, &self.triangles, 3);
+        let starts = self.triangles.iter().map(|range| 3 * range.start as u32);
+        starts.zip(origins).zip(twins).map(|((first, origin), twin)| Patch { first, origin, twin }).collect()
     }
 }
 

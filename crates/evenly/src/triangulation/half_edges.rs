@@ -135,21 +135,6 @@ impl HalfEdges {
                 2
             }
     }
-
-    /// Replaces the edge of `h`, which must have a twin, by the other diagonal of the two triangles' quadrilateral.
-    pub fn flip(&mut self, h: u32) {
-        let t = self.twin[h as usize];
-        let (hp, tp) = (prev(h), prev(t));
-        let (across_h, across_t) = (self.twin[tp as usize], self.twin[hp as usize]);
-        self.origin[h as usize] = self.origin[tp as usize];
-        self.origin[t as usize] = self.origin[hp as usize];
-        for (a, b) in [(hp, tp), (h, across_h), (t, across_t)] {
-            self.twin[a as usize] = b;
-            if b != BORDER {
-                self.twin[b as usize] = a;
-            }
-        }
-    }
 }
 
 /// The position of the smallest of a triangle's vertices.
@@ -187,15 +172,5 @@ mod tests {
         assert_eq!(all.twin.iter().filter(|&&t| t != BORDER).count(), 2);
         let one = mesh.filtered(|t| t.contains(&3).then_some(0));
         assert_eq!(one, HalfEdges { origin: vec![0, 2, 3], twin: vec![BORDER; 3] });
-    }
-
-    #[test]
-    fn flipping_twice_swaps_the_triangles() {
-        let mut mesh = square();
-        mesh.flip(2);
-        assert_eq!(mesh.triangle(0), [0, 1, 3]);
-        assert_eq!(mesh.triangle(1), [1, 2, 3]);
-        mesh.flip(1);
-        assert_eq!([mesh.triangle(0), mesh.triangle(1)], [[0, 2, 3], [1, 2, 0]]);
     }
 }

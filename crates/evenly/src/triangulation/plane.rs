@@ -5,7 +5,7 @@ use glam::DVec2;
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
 use super::half_edges::{BORDER, HalfEdges};
-use crate::Error;
+use crate::error::Error;
 
 struct Site {
     position: Point2<f64>,

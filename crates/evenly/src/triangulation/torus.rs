@@ -14,8 +14,9 @@ use glam::{DVec2, IVec2};
 use rayon::prelude::*;
 
 use super::half_edges::{HalfEdges, smallest};
-use super::{Triangulation, plane};
-use crate::Error;
+use super::mesh::Triangulation;
+use super::plane;
+use crate::error::Error;
 use crate::points::Random;
 use crate::predicates::is_left_turn;
 use crate::space::{Domain, GRID};

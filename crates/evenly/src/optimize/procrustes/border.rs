@@ -6,8 +6,8 @@
 
 use glam::DVec2;
 
-use crate::Error;
-use crate::triangulation::{BORDER, HalfEdges, Triangulation, next, prev};
+use crate::error::Error;
+use crate::triangulation::{BORDER, HalfEdges, Triangulation, delaunay_sorted, next, prev};
 
 /// Points nearer to a wall than this, in spacings, are either on it or moved away from it.
 const CLEARANCE: f64 = 0.6;
@@ -29,13 +29,13 @@ pub(super) fn settle(triangulation: Triangulation, spacing: f64) -> Result<Trian
     for (p, _) in positions.iter_mut().zip(&is_chosen).filter(|(_, is_chosen)| !**is_chosen) {
         *p = domain.land(cleared(*p, size, spacing));
     }
-    Triangulation::delaunay_sorted(&domain, positions, order)
+    delaunay_sorted(&domain, positions, order)
 }
 
 /// Builds the triangulation anew; points that come too near to the border join it, those that crowd on it leave it.
 pub(super) fn resettle(triangulation: Triangulation, spacing: f64) -> Result<Triangulation, Error> {
     let Triangulation { positions, domain, order, .. } = triangulation;
-    let mut fresh = Triangulation::delaunay_sorted(&domain, positions, order)?;
+    let mut fresh = delaunay_sorted(&domain, positions, order)?;
     let moves = joining(&fresh).into_iter().chain(leaving(&fresh, spacing));
     let moves: Vec<(u32, DVec2)> = moves.collect();
     if moves.is_empty() {
@@ -44,7 +44,7 @@ pub(super) fn resettle(triangulation: Triangulation, spacing: f64) -> Result<Tri
     for (vertex, place) in moves {
         fresh.positions[vertex as usize] = domain.land(place);
     }
-    Triangulation::delaunay_sorted(&domain, fresh.positions, fresh.order)
+    delaunay_sorted(&domain, fresh.positions, fresh.order)
 }
 
 /// The corners, and places evenly spaced between them, counter-clockwise; as many as suit `n_points`.

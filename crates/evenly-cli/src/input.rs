@@ -1,0 +1,20 @@
+//! Points from a file or stdin, brought into a domain.
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use evenly::{PointSet, Space};
+
+/// Reads points; on a torus also a note if some lay outside and were wrapped.
+pub fn read(input: &Path, space: Space) -> anyhow::Result<(PointSet, Option<String>)> {
+    let positions = evenly_io::read_positions(input)?;
+    let n_outside = positions.iter().filter(|p| is_outside(&space, p)).count();
+    let points = PointSet::new(space, positions).with_context(|| input.display().to_string())?;
+    let note = format!("{n_outside} points lie outside the torus {space} and were wrapped into it; are --size and --origin right?");
+    Ok((points, (n_outside > 0).then_some(note)))
+}
+
+fn is_outside(space: &Space, p: &[f64; 2]) -> bool {
+    let (origin, size) = (space.origin(), space.size());
+    (0..2).any(|axis| p[axis] < origin[axis] || p[axis] > origin[axis] + size[axis])
+}

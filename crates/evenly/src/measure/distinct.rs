@@ -1,0 +1,35 @@
+//! Points that share a place have one cell, and are triangulated once.
+
+use glam::DVec2;
+
+use crate::error::Error;
+use crate::points::{PointSet, hilbert_order};
+use crate::triangulation::{Triangulation, delaunay_sorted};
+
+/// The triangulation of the distinct points among some.
+pub(super) struct Distinct {
+    pub triangulation: Triangulation,
+    /// Points that share their place with an earlier one.
+    pub coincident_points: usize,
+    /// Places that more than one point takes.
+    pub shared_places: usize,
+}
+
+impl Distinct {
+    /// Triangulates points, at least three of them distinct.
+    pub fn triangulate(points: &PointSet) -> Result<Self, Error> {
+        let (domain, positions) = points.normalized();
+        let order = hilbert_order(&positions, domain.size);
+        let mut sorted: Vec<(DVec2, u32)> = order.iter().map(|&i| (positions[i as usize], i)).collect();
+        let shared_places = sorted.chunk_by(|a, b| a.0 == b.0).filter(|place| place.len() > 1).count();
+        sorted.dedup_by_key(|(p, _)| *p);
+        if sorted.len() < 3 {
+            let text = format!("{} distinct points make no triangulation; measures need three", sorted.len());
+            return Err(Error::Degenerate(text));
+        }
+        let coincident_points = positions.len() - sorted.len();
+        let (sorted, order) = sorted.into_iter().unzip();
+        let triangulation = delaunay_sorted(&domain, sorted, order)?;
+        Ok(Self { triangulation, coincident_points, shared_places })
+    }
+}

@@ -1,0 +1,190 @@
+//! [`measure`]: every measure at once.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::distinct::Distinct;
+use super::star::{StarMeasures, StarReader};
+use super::triangles;
+use crate::error::Error;
+use crate::points::PointSet;
+
+/// What [`measure`] finds. Lengths are in hexagonal spacings, `sqrt(2 A / (sqrt(3) n))`; capacities in mean capacities, `A / n`.
+///
+/// In a rectangle Voronoi cells are clipped to the domain, triangles are the dual of the clipped diagram,
+/// and the measures of order and the valences leave out vertices whose cell reaches the border.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Measures {
+    /// How many points there are.
+    pub n_points: usize,
+    /// The hexagonal spacing, in input units.
+    pub hex_spacing: f64,
+    /// Points that share their place with an earlier one. They count in the distances, and nowhere else.
+    pub coincident_points: usize,
+    /// Smallest distance of two points; 1 at most, and for the hexagonal lattice.
+    pub min_distance: f64,
+    /// Mean over the points of the distance to the nearest other.
+    pub mean_distance: f64,
+    /// Radius of the largest disk in the domain without a point; 0.577 for the hexagonal lattice.
+    pub coverage_radius: f64,
+    /// `coverage_radius / min_distance`; 0.577 for the hexagonal lattice, below 0.707 no triangle is obtuse. Infinite if points coincide.
+    pub beta: f64,
+    /// Mean over the points of |mean over its neighbours of exp(6 i theta)|: psi6.
+    pub bond_order: f64,
+    /// The definition of the tool psa: sum over the points of |sum over the edges between consecutive neighbours of exp(6 i theta)|,
+    /// divided by the sum of valences.
+    pub bond_order_psa: f64,
+    /// |mean over all points and their neighbours of exp(6 i theta)|: near 0 unless one lattice fills the domain.
+    pub bond_order_global: f64,
+    /// Standard deviation of the Voronoi cells' areas.
+    pub capacity_sd: f64,
+    /// Largest deviation of a Voronoi cell's area from the mean.
+    pub capacity_max_deviation: f64,
+    /// Root mean square deviation of the triangles' angles from 60 degrees (Papazov and Hege, equation 7).
+    pub angle_rms_deg: f64,
+    /// Mean of twice the inradius over the circumradius; 1 for equilateral triangles (equation 8).
+    pub triangle_quality: f64,
+    /// Smallest angle.
+    pub min_angle_deg: f64,
+    /// Largest angle.
+    pub max_angle_deg: f64,
+    /// Share of triangles with an angle above 90 degrees.
+    pub obtuse_fraction: f64,
+    /// How many vertices have each number of neighbours.
+    pub valence: BTreeMap<usize, usize>,
+    /// What only a bounded domain has.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub border: Option<BorderMeasures>,
+}
+
+/// Measures of a bounded domain's border.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BorderMeasures {
+    /// `angle_rms_deg` of the triangles with a corner on the border of the triangulation.
+    pub border_angle_rms_deg: f64,
+    /// `angle_rms_deg` of all other triangles.
+    pub interior_angle_rms_deg: f64,
+    /// Share of the domain that no triangle covers.
+    pub uncovered_fraction: f64,
+    /// Vertices without a triangle.
+    pub isolated_points: usize,
+}
+
+/// Sums over vertices, added up in a fixed order.
+#[derive(Clone, Default)]
+struct Sums {
+    min_distance: f64,
+    distance: f64,
+    reach: f64,
+    capacity_squares: f64,
+    capacity_deviation: f64,
+    n_inner: usize,
+    bond_order: f64,
+    bond_edges: f64,
+    bond: [f64; 2],
+    neighbours: usize,
+    valence: BTreeMap<usize, usize>,
+}
+
+/// Measures a set of at least three points, not all on one line.
+///
+/// # Errors
+/// [`Error::Degenerate`] for fewer points, or where a rectangle's points all lie on one line.
+pub fn measure(points: &PointSet) -> Result<Measures, Error> {
+    let Distinct { triangulation, coincident_points, shared_places } = Distinct::triangulate(points)?;
+    let n_distinct = triangulation.n_base();
+    let domain_area = triangulation.domain.area() / f64::from(triangulation.copies[0] * triangulation.copies[1]);
+    let mean_capacity = domain_area / n_distinct as f64;
+    let spacing = (2.0 * mean_capacity / 3f64.sqrt()).sqrt();
+
+    let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
+    let parts: Vec<Sums> = (0..n_distinct)
+        .collect::<Vec<_>>()
+        .par_chunks(1 << 14)
+        .map(|vertices| {
+            let mut reader = StarReader::new(&triangulation, &outgoing);
+            let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
+            for &vertex in vertices {
+                sums.add(reader.read(vertex), mean_capacity);
+            }
+            sums
+        })
+        .collect();
+    let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
+    for part in &parts {
+        sums.merge(part);
+    }
+
+    let triangles = triangles::measure(&triangulation);
+    let n_points = points.n_points();
+    let n_inner = (sums.n_inner as f64).max(1.0);
+    let min_distance = if coincident_points > 0 { 0.0 } else { sums.min_distance / spacing };
+    let coverage_radius = sums.reach / spacing;
+    // A point that shares its place has its nearest neighbour at distance 0.
+    let alone = (n_distinct - shared_places) as f64 / n_distinct as f64;
+    Ok(Measures {
+        n_points,
+        hex_spacing: points.space().hex_spacing(n_points),
+        coincident_points,
+        min_distance,
+        mean_distance: alone * sums.distance / n_points as f64 / spacing,
+        coverage_radius,
+        beta: coverage_radius / min_distance,
+        bond_order: sums.bond_order / n_inner,
+        bond_order_psa: sums.bond_edges / (sums.neighbours as f64).max(1.0),
+        bond_order_global: sums.bond[0].hypot(sums.bond[1]) / n_inner,
+        capacity_sd: (sums.capacity_squares / n_distinct as f64).sqrt(),
+        capacity_max_deviation: sums.capacity_deviation,
+        angle_rms_deg: triangles.all.angle_rms_deg(),
+        triangle_quality: triangles.all.quality(),
+        min_angle_deg: triangles.all.min_angle_deg,
+        max_angle_deg: triangles.all.max_angle_deg,
+        obtuse_fraction: triangles.all.obtuse_fraction(),
+        valence: sums.valence,
+        border: (!triangulation.domain.is_periodic).then(|| BorderMeasures {
+            border_angle_rms_deg: triangles.border.angle_rms_deg(),
+            interior_angle_rms_deg: triangles.interior.angle_rms_deg(),
+            uncovered_fraction: (1.0 - triangles.all.area / domain_area).max(0.0),
+            isolated_points: triangles.isolated_points,
+        }),
+    })
+}
+
+impl Sums {
+    fn add(&mut self, star: StarMeasures, mean_capacity: f64) {
+        self.min_distance = self.min_distance.min(star.nearest);
+        self.distance += star.nearest;
+        self.reach = self.reach.max(star.reach);
+        let deviation = star.capacity / mean_capacity - 1.0;
+        self.capacity_squares += deviation * deviation;
+        self.capacity_deviation = self.capacity_deviation.max(deviation.abs());
+        if star.is_inner {
+            self.n_inner += 1;
+            self.neighbours += star.valence;
+            self.bond_order += star.bond.length();
+            self.bond_edges += star.bond_edges.length();
+            self.bond[0] += star.bond.x;
+            self.bond[1] += star.bond.y;
+            *self.valence.entry(star.valence).or_default() += 1;
+        }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.min_distance = self.min_distance.min(other.min_distance);
+        self.distance += other.distance;
+        self.reach = self.reach.max(other.reach);
+        self.capacity_squares += other.capacity_squares;
+        self.capacity_deviation = self.capacity_deviation.max(other.capacity_deviation);
+        self.n_inner += other.n_inner;
+        self.neighbours += other.neighbours;
+        self.bond_order += other.bond_order;
+        self.bond_edges += other.bond_edges;
+        self.bond[0] += other.bond[0];
+        self.bond[1] += other.bond[1];
+        for (&valence, n) in &other.valence {
+            *self.valence.entry(valence).or_default() += n;
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The model triangle fitted to a triangle, in closed form.
+//!
+//! For a triangle with spokes u and v from its first corner, A = -(3/2) c + (sqrt(3)/2) J (v - u), with c = (u + v) / 3 and J the quarter
+//! turn, is the first Fourier coefficient of its centred corners. The model triangle of side d fits best when it is
+//! turned to A, and the energy is E = (2/3) (|A| - (sqrt(3)/2) d)^2 + d^2 / 2 - (4/sqrt(3)) area.
+
+use glam::DVec2;
+
+/// sqrt(3) / 2.
+pub(super) const H: f64 = 0.866_025_403_784_438_6;
+
+/// |A|, from the triangle's spokes.
+#[inline]
+pub(super) fn amplitude(u: DVec2, v: DVec2) -> f64 {
+    let edges = u.length_squared() + v.length_squared() + (v - u).length_squared();
+    (0.5 * edges + 2.0 * H * u.perp_dot(v)).max(0.0).sqrt()
+}
+
+/// E(T) of equation (3), from |A| and twice the signed area.
+#[inline]
+pub(super) fn triangle_energy(amplitude: f64, twice_area: f64, side: f64) -> f64 {
+    let excess = amplitude - H * side;
+    excess * excess / 1.5 + 0.5 * side * side - twice_area / H
+}
+
+/// The ways from the corners to the targets of equation (1).
+#[inline]
+pub(super) fn ways_to_targets(u: DVec2, v: DVec2, amplitude: f64, side: f64) -> [DVec2; 3] {
+    let (centre, edge) = ((u + v) / 3.0, v - u);
+    let a = -1.5 * centre + H * edge.perp();
+    // An inverted equilateral triangle has no best rotation: any will do.
+    let radius = side / (2.0 * H);
+    let model = if amplitude > 0.0 { a * (radius / amplitude) } else { DVec2::new(radius, 0.0) };
+    let (half, turned) = (-0.5 * model, H * model.perp());
+    [centre + model, centre + half + turned - u, centre + half - turned - v]
+}

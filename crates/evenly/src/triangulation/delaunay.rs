@@ -1,0 +1,30 @@
+//! The exact Delaunay triangulation: periodic on a torus, of the convex hull in a rectangle.
+
+use glam::DVec2;
+
+use super::half_edges::smallest;
+use super::mesh::Triangulation;
+use super::{plane, torus};
+use crate::error::Error;
+use crate::space::Domain;
+
+/// Triangulates distinct points, given their Hilbert order.
+pub(crate) fn delaunay(domain: &Domain, points: &[DVec2], order: Vec<u32>) -> Result<Triangulation, Error> {
+    let sorted = order.iter().map(|&i| points[i as usize]).collect();
+    delaunay_sorted(domain, sorted, order)
+}
+
+/// As [`delaunay`], of points that stand in that order already.
+pub(crate) fn delaunay_sorted(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> Result<Triangulation, Error> {
+    let triangulation = if domain.is_periodic {
+        torus::delaunay(domain, &points, order)?
+    } else {
+        let half_edges = plane::delaunay(points.iter().copied())?.filtered(|t| Some(smallest(t)));
+        if half_edges.n_triangles() == 0 {
+            return Err(Error::Degenerate("all points lie on one line".into()));
+        }
+        Triangulation { half_edges, positions: points, domain: *domain, copies: [1, 1], order }
+    };
+    debug_assert_eq!(triangulation.check_delaunay(), Ok(()));
+    Ok(triangulation)
+}
