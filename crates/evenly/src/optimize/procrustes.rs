@@ -114,8 +114,8 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     run.enter(Phase::Optimize);
     let mut mesh = Mesh::new(triangulation, params.side * spacing);
 
-    // Step 1, match: it also measures the energy of the iteration before.
-    let mut energy = mesh.match_triangles() / mesh.area();
+    // Step 1, match.
+    let mut energy = mesh.flip_and_match(false).energy / mesh.area();
     report.energy.push(energy);
     report.outcome = Outcome::IterationLimit;
     let mut decay = Decay::new(params);
@@ -131,20 +131,21 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         };
         mesh.move_vertices(momentum);
         report.moves_undone += mesh.undo_inverted();
-        // Step 3: flip; in fast mode, once most edges have found their place, every second time.
-        if params.mode == Mode::Paper || report.iterations < ALWAYS_FLIP || report.iterations.is_multiple_of(2) {
-            report.flips += mesh.flip_edges();
-        }
+        // Step 3, flip, in fast mode every second time once most edges have found their place; and step 1 of the next iteration,
+        // match, which also measures the energy of this one.
+        let is_flipping = params.mode == Mode::Paper || report.iterations < ALWAYS_FLIP || report.iterations.is_multiple_of(2);
+        let mut matched = mesh.flip_and_match(is_flipping);
+        report.flips += matched.n_flips;
         report.iterations += 1;
 
         let is_settling = has_border && REBUILDS.contains(&report.iterations);
         if is_settling {
             mesh = mesh.rebuilt(|old| border::resettle(old, spacing))?;
+            matched = mesh.flip_and_match(false);
             report.triangulations += 1;
         }
-        // Step 1 of the next iteration.
         let before = energy;
-        energy = mesh.match_triangles() / mesh.area();
+        energy = matched.energy / mesh.area();
         report.energy.push(energy);
         report.energy_rises += usize::from(energy > before && !is_settling);
         decay.step(before - energy);

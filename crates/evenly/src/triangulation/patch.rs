@@ -22,6 +22,12 @@ impl<'a> Patch<'a> {
         (local < self.origin.len()).then_some(local)
     }
 
+    /// The edges that reach out of the patch, each from its smaller half.
+    pub fn crossing(&self) -> impl Iterator<Item = u32> {
+        let half_edges = (self.first..).zip(&*self.twin);
+        half_edges.filter(|&(h, &twin)| twin != BORDER && twin > h && self.local(twin).is_none()).map(|(h, _)| h)
+    }
+
     /// The corners around the edge of `h`, whose twin `t` is in the patch too: its ends p and q, its apex r, and the apex s across.
     #[inline]
     pub fn quadrilateral(&self, h: u32, t: u32) -> [u32; 4] {

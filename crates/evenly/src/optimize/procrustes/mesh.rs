@@ -16,6 +16,14 @@ struct Pull {
     n_targets: f64,
 }
 
+impl Pull {
+    #[inline]
+    fn add(&mut self, way: DVec2) {
+        self.sum += way;
+        self.n_targets += 1.0;
+    }
+}
+
 pub(super) struct Mesh {
     triangulation: Triangulation,
     chunks: Chunks,
@@ -29,12 +37,20 @@ pub(super) struct Mesh {
     sliders: Vec<(u32, DVec2)>,
     /// Each chunk's pulls on vertices of other chunks.
     strays: Vec<Vec<(u32, DVec2)>>,
-    /// Each chunk's edges for the serial pass, or its inverted triangles.
-    leftovers: Vec<Vec<u32>>,
+    /// Each chunk's triangles that the last move has turned over.
+    inverted: Vec<Vec<u32>>,
+    /// Each chunk's edges that reach out of it, and flips that would.
+    crossing: Vec<Vec<u32>>,
+}
+
+/// What a pass over the triangles has found.
+pub(super) struct Matched {
+    pub n_flips: usize,
+    pub energy: f64,
 }
 
 impl Mesh {
-    pub fn new(triangulation: Triangulation, side: f64) -> Self {
+    pub fn new(mut triangulation: Triangulation, side: f64) -> Self {
         let n_vertices = triangulation.positions.len();
         let chunks = Chunks::new(&triangulation.half_edges, n_vertices);
         let mut mesh = Self {
@@ -44,7 +60,8 @@ impl Mesh {
             amplitude: vec![0.0; triangulation.half_edges.n_triangles()],
             sliders: sliders(&triangulation),
             strays: vec![Vec::new(); chunks.n_chunks()],
-            leftovers: vec![Vec::new(); chunks.n_chunks()],
+            inverted: vec![Vec::new(); chunks.n_chunks()],
+            crossing: chunks.patches(&mut triangulation.half_edges).iter().map(|patch| patch.crossing().collect()).collect(),
             triangulation,
             chunks,
         };
@@ -56,44 +73,55 @@ impl Mesh {
         self.triangulation.domain.area()
     }
 
-    /// Step 1: fits the model triangle to each triangle and gathers the ways to the targets. Returns the energy.
-    pub fn match_triangles(&mut self) -> f64 {
-        let Triangulation { half_edges, positions, domain, .. } = &self.triangulation;
-        let (side, amplitude) = (self.side, &self.amplitude);
-        let energies: Vec<f64> = (self.chunks.vertices(), self.chunks.triangles())
+    /// Step 3, where asked for: flips each edge where that lowers the energy and leaves both triangles turned the right way. Then step 1:
+    /// fits the model triangle to each triangle and gathers the ways to the targets.
+    ///
+    /// A chunk is matched while it is still in the cache from flipping, so what reaches across chunks is flipped before, in order.
+    pub fn flip_and_match(&mut self, is_flipping: bool) -> Matched {
+        let Triangulation { half_edges, positions, domain, .. } = &mut self.triangulation;
+        let (positions, domain, side) = (&*positions, &*domain, self.side);
+        let rule = FlipRule { positions, domain, side };
+        let mut n_flips = 0;
+        if is_flipping {
+            let mut whole = Patch::whole(half_edges);
+            let edges = self.crossing.iter().flatten();
+            n_flips += edges.filter(|&&h| rule.visit(&mut whole, &mut self.amplitude, h, &mut Vec::new())).count();
+        }
+        let chunks = (self.chunks.patches(half_edges), self.chunks.split_triangles(&mut self.amplitude));
+        let vertices = (self.chunks.vertices(), self.chunks.split_vertices(&mut self.pulls));
+        let found: Vec<Matched> = (chunks.into_par_iter(), vertices.into_par_iter(), &mut self.strays, &mut self.crossing)
             .into_par_iter()
-            .zip(self.chunks.split_vertices(&mut self.pulls))
-            .zip(&mut self.strays)
-            .map(|(((vertices, triangles), pulls), strays)| {
+            .map(|((mut patch, amplitude), (vertices, pulls), strays, crossing)| {
+                let mut n_flips = 0;
+                if is_flipping {
+                    crossing.clear();
+                    n_flips = rule.visit_all(&mut patch, amplitude, crossing);
+                }
                 pulls.fill(Pull::default());
                 strays.clear();
-                let first = vertices.start as u32;
                 let mut energy = 0.0;
-                let corners = half_edges.origin[3 * triangles.start..3 * triangles.end].chunks_exact(3);
-                for (t, &a) in corners.zip(&amplitude[triangles.clone()]) {
+                for (t, &a) in patch.origin.chunks_exact(3).zip(&*amplitude) {
                     let at = |v: u32| positions[v as usize];
                     let u = domain.spoke(at(t[0]), at(t[1]));
                     let v = domain.spoke(at(t[0]), at(t[2]));
                     energy += triangle_energy(a, u.perp_dot(v), side);
                     for (&vertex, way) in t.iter().zip(ways_to_targets(u, v, a, side)) {
-                        if let Some(pull) = pulls.get_mut(vertex.wrapping_sub(first) as usize) {
-                            pull.sum += way;
-                            pull.n_targets += 1.0;
-                        } else {
-                            strays.push((vertex, way));
+                        match pulls.get_mut((vertex as usize).wrapping_sub(vertices.start)) {
+                            Some(pull) => pull.add(way),
+                            None => strays.push((vertex, way)),
                         }
                     }
                 }
-                energy
+                Matched { n_flips, energy }
             })
             .collect();
         for &(vertex, way) in self.strays.iter().flatten() {
-            let pull = &mut self.pulls[vertex as usize];
-            pull.sum += way;
-            pull.n_targets += 1.0;
+            self.pulls[vertex as usize].add(way);
         }
         self.unite_copies();
-        energies.iter().sum()
+        debug_assert_eq!(self.triangulation.check(), Ok(()));
+        let energy = found.iter().map(|part| part.energy).sum();
+        Matched { n_flips: n_flips + found.iter().map(|part| part.n_flips).sum::<usize>(), energy }
     }
 
     /// On a cover, gives all copies of a vertex the same pull: the energy is then minimised among periodic sets.
@@ -148,7 +176,7 @@ impl Mesh {
     ///
     /// The mesh before the move had none; in the worst case every vertex returns there.
     pub fn undo_inverted(&mut self) -> usize {
-        let mut inverted: Vec<u32> = self.leftovers.iter().flatten().copied().collect();
+        let mut inverted: Vec<u32> = self.inverted.iter().flatten().copied().collect();
         let (n_base, n_vertices) = (self.triangulation.n_base(), self.triangulation.positions.len());
         let domain = self.triangulation.domain;
         let mut n_undone = 0;
@@ -197,10 +225,10 @@ impl Mesh {
         inverted
     }
 
-    /// Computes |A| of every triangle; `leftovers` then holds those that are turned over.
+    /// Computes |A| of every triangle; `inverted` then holds those that are turned over.
     fn measure_triangles(&mut self) {
         let Triangulation { half_edges, positions, domain, .. } = &self.triangulation;
-        self.chunks.split_triangles(&mut self.amplitude).into_par_iter().zip(self.chunks.triangles()).zip(&mut self.leftovers).for_each(
+        self.chunks.split_triangles(&mut self.amplitude).into_par_iter().zip(self.chunks.triangles()).zip(&mut self.inverted).for_each(
             |((amplitudes, range), inverted)| {
                 inverted.clear();
                 let corners = half_edges.origin[3 * range.start..3 * range.end].chunks_exact(3);
@@ -215,26 +243,6 @@ impl Mesh {
                 }
             },
         );
-    }
-
-    /// Step 3: flips each edge where that lowers the energy and leaves both triangles turned the right way. Returns the number of flips.
-    pub fn flip_edges(&mut self) -> usize {
-        let Triangulation { half_edges, positions, domain, .. } = &mut self.triangulation;
-        let rule = FlipRule { positions, domain, side: self.side };
-        let n_flips: usize = (self.chunks.patches(half_edges), self.chunks.split_triangles(&mut self.amplitude))
-            .into_par_iter()
-            .zip(&mut self.leftovers)
-            .map(|((mut patch, amplitude), leftovers)| {
-                leftovers.clear();
-                rule.visit_all(&mut patch, amplitude, leftovers)
-            })
-            .sum();
-        // What reaches across chunks comes last, in order.
-        let mut whole = Patch::whole(half_edges);
-        let crossing = self.leftovers.iter().flatten();
-        let n_crossing = crossing.filter(|&&h| rule.visit(&mut whole, &mut self.amplitude, h, &mut Vec::new())).count();
-        debug_assert_eq!(self.triangulation.check(), Ok(()));
-        n_flips + n_crossing
     }
 
     /// Triangles that are turned over, counted afresh.
