@@ -1,14 +1,19 @@
 //! Proofs: what a triangulation claims to be, verified from scratch with exact predicates.
 
+use std::collections::HashMap;
+
 use super::half_edges::BORDER;
 use super::mesh::Triangulation;
+use crate::predicates::is_left_turn;
 
 impl Triangulation {
-    /// Proves twins, orientation and Euler's formula, and on a torus that the areas sum to the domain's.
+    /// Proves that the torus, or the points' convex hull, is triangulated: twins, orientation, Euler's formula, and on a torus that the
+    /// areas sum to the domain's, elsewhere that the border is one convex ring.
     pub fn check(&self) -> Result<(), String> {
         self.check_twins()?;
         self.check_orientation()?;
-        self.check_euler()
+        self.check_euler()?;
+        self.check_hull()
     }
 
     /// Proves [`Self::check`] and the Delaunay property: no vertex opposite an edge lies inside its circumcircle.
@@ -50,6 +55,32 @@ impl Triangulation {
         let fits = if self.domain.is_periodic { (area - domain).abs() } else { (area - domain).max(0.0) };
         if fits > 1e-9 * domain {
             return Err(format!("the triangles cover {area} of {domain}"));
+        }
+        Ok(())
+    }
+
+    /// An upright disc whose border turns to the left all the way, or runs straight on, is its own convex hull.
+    fn check_hull(&self) -> Result<(), String> {
+        let mesh = &self.half_edges;
+        let border: Vec<u32> = (0..mesh.origin.len() as u32).filter(|&h| mesh.is_border(h)).collect();
+        let leaving: HashMap<u32, u32> = border.iter().map(|&h| (mesh.origin[h as usize], h)).collect();
+        let Some(&start) = border.first().filter(|_| !self.domain.is_periodic) else { return Ok(()) };
+        let (mut h, mut n_seen) = (start, 0);
+        loop {
+            n_seen += 1;
+            let Some(&after) = leaving.get(&mesh.target(h)) else { return Err(format!("the border ends after half-edge {h}")) };
+            let [a, b, c] = [mesh.origin[h as usize], mesh.target(h), mesh.target(after)].map(|v| self.positions[v as usize]);
+            let is_right_turn = is_left_turn(c - b, b - a);
+            if is_right_turn || (b - a).dot(c - b) < 0.0 && !is_left_turn(b - a, c - b) {
+                return Err(format!("the border is not convex after half-edge {h}"));
+            }
+            h = after;
+            if h == start || n_seen > border.len() {
+                break;
+            }
+        }
+        if n_seen != border.len() {
+            return Err("the border is more than one ring".into());
         }
         Ok(())
     }

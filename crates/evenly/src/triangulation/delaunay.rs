@@ -16,15 +16,22 @@ pub(crate) fn delaunay(domain: &Domain, points: &[DVec2], order: Vec<u32>) -> Re
 
 /// As [`delaunay`], of points that stand in that order already.
 pub(crate) fn delaunay_sorted(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> Result<Triangulation, Error> {
-    let triangulation = if domain.is_periodic {
-        torus::delaunay(domain, &points, order)?
-    } else {
-        let half_edges = plane::delaunay(points.iter().copied())?.filtered(|t| Some(smallest(t)));
-        if half_edges.n_triangles() == 0 {
-            return Err(Error::Degenerate("all points lie on one line".into()));
-        }
-        Triangulation { half_edges, positions: points, domain: *domain, copies: [1, 1], order }
-    };
+    let triangulation = if domain.is_periodic { torus::delaunay(domain, &points, order)? } else { hull(domain, points, order)? };
     debug_assert_eq!(triangulation.check_delaunay(), Ok(()));
+    Ok(triangulation)
+}
+
+/// Triangulates the convex hull: quickly, if that can be proved to be a triangulation, and then by Lawson's flips; otherwise exactly.
+fn hull(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> Result<Triangulation, Error> {
+    let half_edges = plane::nearly_delaunay(points.iter().copied()).filtered(|t| Some(smallest(t)));
+    let mut triangulation = Triangulation { half_edges, positions: points, domain: *domain, copies: [1, 1], order };
+    if triangulation.half_edges.n_triangles() > 0 && triangulation.check().is_ok() {
+        triangulation.legalize();
+        return Ok(triangulation);
+    }
+    triangulation.half_edges = plane::delaunay(triangulation.positions.iter().copied())?.filtered(|t| Some(smallest(t)));
+    if triangulation.half_edges.n_triangles() == 0 {
+        return Err(Error::Degenerate("all points lie on one line".into()));
+    }
     Ok(triangulation)
 }

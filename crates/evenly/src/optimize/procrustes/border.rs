@@ -32,19 +32,19 @@ pub(super) fn settle(triangulation: Triangulation, spacing: f64) -> Result<Trian
     delaunay_sorted(&domain, positions, order)
 }
 
-/// Builds the triangulation anew; points that come too near to the border join it, those that crowd on it leave it.
-pub(super) fn resettle(triangulation: Triangulation, spacing: f64) -> Result<Triangulation, Error> {
-    let Triangulation { positions, domain, order, .. } = triangulation;
-    let mut fresh = delaunay_sorted(&domain, positions, order)?;
-    let moves = joining(&fresh).into_iter().chain(leaving(&fresh, spacing));
+/// Makes the triangulation Delaunay again; points that come too near to the border join it, those that crowd on it leave it.
+pub(super) fn resettle(mut triangulation: Triangulation, spacing: f64) -> Result<Triangulation, Error> {
+    triangulation.legalize();
+    let moves = joining(&triangulation).into_iter().chain(leaving(&triangulation, spacing));
     let moves: Vec<(u32, DVec2)> = moves.collect();
     if moves.is_empty() {
-        return Ok(fresh);
+        return Ok(triangulation);
     }
+    let Triangulation { mut positions, domain, order, .. } = triangulation;
     for (vertex, place) in moves {
-        fresh.positions[vertex as usize] = domain.land(place);
+        positions[vertex as usize] = domain.land(place);
     }
-    delaunay_sorted(&domain, fresh.positions, fresh.order)
+    delaunay_sorted(&domain, positions, order)
 }
 
 /// The corners, and places evenly spaced between them, counter-clockwise; as many as suit `n_points`.
