@@ -281,6 +281,18 @@ fn existing_files_are_overwritten_only_by_force() {
     assert_eq!(shell.files(), ["a.txt"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn links_and_devices_stay_what_they_are() {
+    let shell = Shell::new();
+    shell.write("real.txt", "old");
+    std::os::unix::fs::symlink("real.txt", shell.path("link.txt")).unwrap();
+    shell.ok("generate -n 10 -q -o link.txt --force");
+    assert!(shell.path("link.txt").is_symlink() && shell.read("real.txt").starts_with("# evenly"));
+    shell.ok("generate -n 10 -q -o /dev/null --format txt --force");
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_leaves_nothing_behind() {
@@ -291,6 +303,7 @@ fn a_full_disk_leaves_nothing_behind() {
     assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: a.txt: "));
     assert!(shell.files().is_empty());
+    assert!(shell.refused("generate -n 10 -q -o /dev/full --format txt").starts_with("error: /dev/full: No space left"));
 }
 
 #[cfg(unix)]

@@ -35,6 +35,7 @@ pub fn recipe(seed: Option<u64>) -> String {
 
 /// The command as it was given, without the way to the program.
 pub fn command() -> String {
-    let words = std::env::args().skip(1).map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
+    let quoted = |word: String| if word.contains(' ') { format!("'{word}'") } else { word };
+    let words = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
     std::iter::once("evenly".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }

@@ -81,15 +81,33 @@ impl Target {
         if self.path.is_dir() {
             return Err(Error::content(self.name(), "this is a directory; name a file in it"));
         }
+        if self.is_device() {
+            return self.open_device().map(drop);
+        }
         if !self.may_overwrite && self.path.exists() {
             return Err(Error::Exists(self.name()));
         }
         self.temporary().map(drop)
     }
 
+    /// Whether it is a device or a pipe, such as /dev/null: written as it is, never replaced.
+    fn is_device(&self) -> bool {
+        self.path.metadata().is_ok_and(|file| !file.is_file() && !file.is_dir())
+    }
+
+    fn open_device(&self) -> Result<std::fs::File, Error> {
+        std::fs::OpenOptions::new().write(true).open(&self.path).map_err(Error::io(&self.name()))
+    }
+
+    /// The file that takes the content: what a link names, not the link.
+    fn file(&self) -> PathBuf {
+        self.path.canonicalize().unwrap_or_else(|_| self.path.clone())
+    }
+
     /// An empty file beside the target, gone when dropped.
     fn temporary(&self) -> Result<tempfile::NamedTempFile, Error> {
-        let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let file = self.file();
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();
         builder.prefix(".evenly-");
         #[cfg(unix)]
@@ -104,17 +122,14 @@ impl Target {
     pub fn write(&self, bytes: &[u8]) -> Result<(), Error> {
         let name = self.name();
         if self.is_stdout() {
-            let mut stdout = std::io::stdout().lock();
-            let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
-            return match written {
-                // Whoever reads has seen enough.
-                Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-                written => written.map_err(Error::io(&name)),
-            };
+            return write_stream(&mut std::io::stdout().lock(), bytes).map_err(Error::io(&name));
+        }
+        if self.is_device() {
+            return write_stream(&mut self.open_device()?, bytes).map_err(Error::io(&name));
         }
         let mut file = self.temporary()?;
         file.write_all(bytes).and_then(|()| file.as_file().sync_all()).map_err(Error::io(&name))?;
-        let kept = if self.may_overwrite { file.persist(&self.path) } else { file.persist_noclobber(&self.path) };
+        let kept = if self.may_overwrite { file.persist(self.file()) } else { file.persist_noclobber(self.file()) };
         kept.map(drop).map_err(|e| match e.error.kind() {
             std::io::ErrorKind::AlreadyExists => Error::Exists(name),
             _ => Error::Io { name, source: e.error },
@@ -136,6 +151,14 @@ pub fn write_points(points: &PointSet, draw: &[Draw], recipe: &str, target: &Tar
         Format::Png => raster::png(&figure(points, draw, recipe)?, PNG_SIDE, recipe).map_err(|e| Error::content(target.name(), e))?,
     };
     target.write(&bytes)
+}
+
+/// Writes to a stream; if whoever reads has seen enough, that is no error.
+fn write_stream(stream: &mut impl std::io::Write, bytes: &[u8]) -> std::io::Result<()> {
+    match stream.write_all(bytes).and_then(|()| stream.flush()) {
+        Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
 }
 
 fn display_name(path: &Path, stream: &str) -> String {

@@ -182,32 +182,44 @@ fn validate(params: &ProcrustesParams) -> Result<(), Error> {
 /// Watches the energy fall: when to restart, when to stop, and how far the run has come.
 struct Decay {
     params: ProcrustesParams,
-    /// What the last two iterations have gained, the newer first.
-    gains: [f64; 2],
+    /// What the last iterations have gained, the newest first.
+    gains: [f64; 4],
+    largest: f64,
     fraction: f64,
 }
 
 impl Decay {
     fn new(params: &ProcrustesParams) -> Self {
-        Self { params: *params, gains: [f64::INFINITY; 2], fraction: 0.0 }
+        Self { params: *params, gains: [f64::INFINITY; 4], largest: params.tolerance, fraction: 0.0 }
     }
 
     /// Takes what an iteration has gained.
     fn step(&mut self, gain: f64) {
-        self.gains = [gain, self.gains[0]];
-        // The gain falls about as the inverse square of the iterations.
-        let decay = (self.params.tolerance / gain.abs().max(self.params.tolerance)).sqrt();
-        self.fraction = self.fraction.max(decay).min(1.0);
+        let [a, b, c, _] = self.gains;
+        self.gains = [gain, a, b, c];
+        self.largest = self.largest.max(gain.abs());
+        self.fraction = self.fraction.max(self.estimate());
+    }
+
+    /// How far the gains have come down to the tolerance: with momentum about exponentially, in plain steps about as the inverse
+    /// square of the iterations.
+    fn estimate(&self) -> f64 {
+        let recent = self.gains.iter().fold(self.params.tolerance, |most, gain| most.max(gain.abs())).min(self.largest);
+        let share = self.params.tolerance / recent;
+        match self.params.mode {
+            Mode::Paper => share.sqrt(),
+            Mode::Fast => 1.0 - share.ln() / (self.params.tolerance / self.largest).min(0.999).ln(),
+        }
     }
 
     /// Whether the energy has risen twice in a row: momentum alone makes it rise once.
     fn is_diverging(&self) -> bool {
-        self.gains.iter().all(|&gain| gain < 0.0)
+        self.gains[..2].iter().all(|&gain| gain < 0.0)
     }
 
     /// Whether the last iteration has gained too little to go on; with momentum the last two, since its energy sways.
     fn has_settled(&self) -> bool {
-        let is_little = |gain: f64| (0.0..self.params.tolerance).contains(&gain);
-        is_little(self.gains[0]) && (self.params.mode == Mode::Paper || is_little(self.gains[1]))
+        let n = if self.params.mode == Mode::Paper { 1 } else { 2 };
+        self.gains[..n].iter().all(|gain| (0.0..self.params.tolerance).contains(gain))
     }
 }
