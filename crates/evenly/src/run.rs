@@ -112,7 +112,7 @@ pub struct Report {
     pub iterations: usize,
     /// The energy before the first iteration and after each, as a fraction of the domain's area.
     pub energy: Vec<f64>,
-    /// How often the energy rose from one iteration to the next.
+    /// How often the energy rose from one iteration to the next, by more than rounding.
     pub energy_rises: usize,
     /// Edges flipped in the whole run.
     pub flips: usize,

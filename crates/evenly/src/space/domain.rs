@@ -22,7 +22,7 @@ pub(crate) struct Domain {
     pub is_periodic: bool,
     /// 1 / size on a torus, 0 on a rectangle: no difference is ever a period then.
     inverse_period: DVec2,
-    /// The longest that a spoke can be along each axis: half a period, or anything.
+    /// What a spoke stays below along each axis: half a period, or anything.
     longest_spoke: DVec2,
     origin: DVec2,
     /// The far corner in input units.
@@ -120,10 +120,10 @@ impl Domain {
         is_left_turn(u, v) && self.is_spoke(v - u)
     }
 
-    /// Whether a vector is the shortest of its periodic images.
+    /// Whether a vector is shorter than its other periodic images; at half a period two are alike.
     #[inline]
     pub fn is_spoke(&self, d: DVec2) -> bool {
-        d.abs().cmple(self.longest_spoke).all()
+        d.abs().cmplt(self.longest_spoke).all()
     }
 
     /// The place in the domain nearest to `q`, on the grid: wrapped on a torus, clamped in a rectangle.
