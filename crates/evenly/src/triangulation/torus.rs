@@ -6,14 +6,14 @@
 //! they do not fit, the halo grows, up to a whole period, where every triangle at an original point is present: a
 //! Delaunay edge spans at most one period along each axis, since a chord of an empty circle is no longer than a period.
 //!
-//! Where edges are so long that the shortest image of one is not unique (few points, big voids), a finite cover is triangulated
-//! instead: the torus laid side by side with itself. Where even exact triangles do not fit, because cocircular points were cut
+//! Where edges are so long that the shortest image of one is not unique (few points, big voids), the result is that of a finite
+//! cover: the torus laid side by side with itself. Where even exact triangles do not fit, because cocircular points were cut
 //! differently on the two sides of the seam, all points are jittered by a few grid units.
 
 use glam::{DVec2, IVec2};
 use rayon::prelude::*;
 
-use super::half_edges::{HalfEdges, smallest};
+use super::half_edges::{BORDER, HalfEdges, smallest};
 use super::mesh::Triangulation;
 use super::plane;
 use crate::error::Error;
@@ -28,44 +28,29 @@ const PERIOD_TO_EDGE: f64 = 4.0;
 /// Jitters tried before giving up, each twice as wide as the one before.
 const MAX_JITTERS: u32 = 12;
 
-/// Why a triangulation of the plane could not be glued.
-enum Misfit {
-    /// The halo is too narrow, or the triangulation not exact enough.
-    Seam,
-    /// The extent of the longest edge along each axis.
-    EdgesTooLong(DVec2),
-}
-
 /// Delaunay-triangulates distinct points of the periodic `domain`, given in Hilbert order.
 pub(super) fn delaunay(domain: &Domain, points: &[DVec2], order: Vec<u32>) -> Result<Triangulation, Error> {
     let mut base = points.to_vec();
-    let mut copies = [1, 1];
     let mut halo = HALO * (domain.area() / points.len() as f64).sqrt();
     let mut is_exact = false;
     let mut n_jitters = 0;
     loop {
-        let covered = domain.covered(copies);
-        let positions = cover(domain, &base, copies);
-        let is_whole_period = halo >= covered.size.max_element();
-        match glue(&covered, &positions, DVec2::splat(halo).min(covered.size), is_exact) {
-            Ok(half_edges) => {
-                let mut triangulation = Triangulation { half_edges, positions, domain: covered, copies, order };
-                triangulation.legalize();
-                return Ok(triangulation);
-            }
-            Err(Misfit::EdgesTooLong(extent)) => {
-                let needed = (extent * PERIOD_TO_EDGE / domain.size).ceil();
-                copies = [copies[0].max(needed.x as u32), copies[1].max(needed.y as u32)];
-            }
-            Err(Misfit::Seam) if !is_whole_period => halo *= 3.0,
-            Err(Misfit::Seam) if !is_exact => is_exact = true,
-            Err(Misfit::Seam) if n_jitters < MAX_JITTERS => {
-                base = jittered(domain, points, n_jitters);
-                n_jitters += 1;
-            }
-            Err(Misfit::Seam) => {
-                return Err(Error::Degenerate("the points are too degenerate to triangulate on a torus".into()));
-            }
+        let is_whole_period = halo >= domain.size.max_element();
+        if let Some((half_edges, copies)) = glue(domain, &base, DVec2::splat(halo).min(domain.size), is_exact) {
+            let positions = cover(domain, &base, copies);
+            let mut triangulation = Triangulation { half_edges, positions, domain: domain.covered(copies), copies, order };
+            triangulation.legalize();
+            return Ok(triangulation);
+        }
+        if !is_whole_period {
+            halo *= 3.0;
+        } else if !is_exact {
+            is_exact = true;
+        } else if n_jitters < MAX_JITTERS {
+            base = jittered(domain, points, n_jitters);
+            n_jitters += 1;
+        } else {
+            return Err(Error::Degenerate("the points are too degenerate to triangulate on a torus".into()));
         }
     }
 }
@@ -86,22 +71,28 @@ fn jittered(domain: &Domain, points: &[DVec2], attempt: u32) -> Vec<DVec2> {
     points.iter().map(|&p| move_one(p)).collect()
 }
 
-/// Triangulates the plane around the domain, exactly if asked, and joins what lies on the two sides of the seam.
-fn glue(domain: &Domain, points: &[DVec2], halo: DVec2, is_exact: bool) -> Result<HalfEdges, Misfit> {
+/// Triangulates the plane around the domain, exactly if asked, and joins what lies on the two sides of the seam; on a cover where edges are
+/// long. `None` where the triangles do not fit together: the halo is too narrow, or the triangulation not exact enough.
+fn glue(domain: &Domain, points: &[DVec2], halo: DVec2, is_exact: bool) -> Option<(HalfEdges, [u32; 2])> {
     let n = points.len() as u32;
     let copies = halo_copies(domain, points, halo);
-    let position = |v: u32| if v < n { points[v as usize] } else { copies[(v - n) as usize].0 };
-    let base = |v: u32| if v < n { v } else { copies[(v - n) as usize].1 };
-    let all = points.iter().copied().chain(copies.iter().map(|c| c.0));
+    let base = |v: u32| if v < n { v } else { copies[(v - n) as usize].base };
+    let shift = |v: u32| if v < n { IVec2::ZERO } else { copies[(v - n) as usize].shift };
+    let position = |v: u32| points[base(v) as usize] + shift(v).as_dvec2() * domain.size;
+    let all = (0..n + copies.len() as u32).map(position);
     // A jitter may have brought points together; the next one will not.
-    let plane = if is_exact { plane::delaunay(all).map_err(|_| Misfit::Seam)? } else { plane::nearly_delaunay(all) };
+    let plane = if is_exact { plane::delaunay(all).ok()? } else { plane::nearly_delaunay(all) };
 
     // A triangle is ours where its smallest vertex is no copy.
     let mut ours = plane.filtered(|corners| {
-        let first = smallest(corners.map(base));
+        let first = first_corner(corners.map(base));
         (corners[first] < n).then_some(first)
     });
     drop(plane);
+    // The torus has as many edges as vertices and triangles together: F = 2 V.
+    if ours.n_triangles() != 2 * points.len() {
+        return None;
+    }
     let shape = |corners: &[u32]| {
         let [a, b, c] = [corners[0], corners[1], corners[2]].map(position);
         let extent = (b - a).abs().max((c - a).abs()).max((c - b).abs());
@@ -109,18 +100,38 @@ fn glue(domain: &Domain, points: &[DVec2], halo: DVec2, is_exact: bool) -> Resul
     };
     let joined = |a: (DVec2, bool), b: (DVec2, bool)| (a.0.max(b.0), a.1 && b.1);
     let (extent, are_turned_right) = ours.origin.par_chunks_exact(3).map(shape).reduce(|| (DVec2::ZERO, true), joined);
-    for v in &mut ours.origin {
-        *v = base(*v);
+    if !are_turned_right {
+        return None;
     }
-    // The torus has as many edges as vertices and triangles together: F = 2 V.
-    let fits = are_turned_right && ours.n_triangles() == 2 * points.len() && close(&mut ours);
-    let is_too_long = (extent * PERIOD_TO_EDGE).cmpgt(domain.size).any();
-    match (fits, is_too_long) {
-        (true, false) => Ok(ours),
-        (false, true) if halo != domain.size => Err(Misfit::Seam),
-        (_, true) => Err(Misfit::EdgesTooLong(extent)),
-        (false, false) => Err(Misfit::Seam),
+    let n_copies = (extent * PERIOD_TO_EDGE / domain.size).ceil().max(DVec2::ONE).as_uvec2().to_array();
+    if n_copies == [1, 1] {
+        ours.origin.iter_mut().for_each(|v| *v = base(*v));
+    } else {
+        ours = unrolled(&ours, n, n_copies, |v| (base(v), shift(v)));
     }
+    close(&mut ours).then_some((ours, n_copies))
+}
+
+/// The corner with which a triangle begins: that of its smallest vertex, or, where two are copies of one, of the smallest sequence.
+fn first_corner(base: [u32; 3]) -> usize {
+    let turned = |k: usize| [base[k], base[(k + 1) % 3], base[(k + 2) % 3]];
+    let first = smallest(base);
+    if base.iter().filter(|&&v| v == base[first]).count() == 1 { first } else { (0..3).min_by_key(|&k| turned(k)).unwrap_or(first) }
+}
+
+/// The triangles of a cover, not joined yet: each of `ours` in every copy of the domain.
+fn unrolled(ours: &HalfEdges, n: u32, copies: [u32; 2], place: impl Fn(u32) -> (u32, IVec2)) -> HalfEdges {
+    let size = IVec2::new(copies[0] as i32, copies[1] as i32);
+    let mut origin = Vec::with_capacity(ours.origin.len() * (copies[0] * copies[1]) as usize);
+    for at in (0..size.y).flat_map(|y| (0..size.x).map(move |x| IVec2::new(x, y))) {
+        origin.extend(ours.origin.iter().map(|&v| {
+            let (base, shift) = place(v);
+            let copy = (at + shift).rem_euclid(size);
+            base + n * (copy.x + size.x * copy.y) as u32
+        }));
+    }
+    let twin = vec![BORDER; origin.len()];
+    HalfEdges { origin, twin }.filtered(|t| Some(smallest(t)))
 }
 
 /// Joins borders that have the same ends; false if some border is left.
@@ -141,18 +152,25 @@ fn close(mesh: &mut HalfEdges) -> bool {
     })
 }
 
-/// The copies of points in the halo around the domain, with the points that they are copies of.
-fn halo_copies(domain: &Domain, points: &[DVec2], halo: DVec2) -> Vec<(DVec2, u32)> {
+/// A copy of a point in the halo.
+struct Copy {
+    base: u32,
+    /// By how many periods along each axis.
+    shift: IVec2,
+}
+
+/// The copies of points in the halo around the domain.
+fn halo_copies(domain: &Domain, points: &[DVec2], halo: DVec2) -> Vec<Copy> {
     let (low, high) = (-halo, domain.size + halo);
     let mut copies = Vec::new();
-    for (i, &p) in points.iter().enumerate() {
+    for (base, &p) in (0..).zip(points) {
         if p.cmpgt(halo).all() && p.cmplt(domain.size - halo).all() {
             continue;
         }
         for shift in (-1..=1).flat_map(|y| (-1..=1).map(move |x| IVec2::new(x, y))) {
             let q = p + shift.as_dvec2() * domain.size;
             if shift != IVec2::ZERO && q.cmpge(low).all() && q.cmple(high).all() {
-                copies.push((q, i as u32));
+                copies.push(Copy { base, shift });
             }
         }
     }
