@@ -11,7 +11,9 @@ Examples:
   evenly generate -n 10000 --method procrustes -o points.svg
   evenly generate -n 10000 --seed 7 -o points.txt --report run.json
   evenly optimize points.csv --size 640,480 -o better.csv
-  evenly analyze better.csv --size 640,480 --json";
+  evenly analyze better.csv --size 640,480 --json
+
+Exit codes: 0 done; 1 done, but not converged; 2 bad usage or input, or no output; 130 interrupted, state reached written";
 
 /// Spreads points evenly, but not regularly: blue noise.
 #[derive(Parser)]
@@ -122,7 +124,7 @@ pub struct ProcrustesArgs {
     /// Side of the model triangle in hexagonal spacings, good within 1 to 1.625
     #[arg(long, value_name = "D", default_value_t = ProcrustesParams::default().side, allow_negative_numbers = true, help_heading = "Procrustes")]
     pub side: f64,
-    /// Stop when an iteration gains less than this share of the domain's area
+    /// Stop when an iteration (fast: two in a row) gains less than this share of the domain's area
     #[arg(long, value_name = "T", default_value_t = ProcrustesParams::default().tolerance, allow_negative_numbers = true, help_heading = "Procrustes")]
     pub tolerance: f64,
     /// Stop after so many iterations in any case
@@ -138,7 +140,7 @@ pub struct RunArgs {
     /// Where the points go: .txt .csv .npy, or as a figure .svg .png; - is stdout
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// The output's format, if its name does not tell
+    /// The output's format, txt csv npy svg or png, if its name does not tell
     #[arg(long, value_parser = parse_format)]
     pub format: Option<Format>,
     /// A figure's layers

@@ -50,20 +50,11 @@ impl<'a> Session<'a> {
             Some(path) => Some(Target::any(path, args.force)?),
             None => None,
         };
-        if report.as_ref().is_some_and(|report| report.name() == output.name()) {
+        if report.as_ref().is_some_and(|report| report.is_same(&output)) {
             bail!("{}: the points and the report cannot go to the same file", output.name());
         }
         let draw = args.draw.iter().flatten().map(|&layer| layer.into()).collect::<Vec<Draw>>();
         let cancel = CancelToken::default();
-        let handler = cancel.clone();
-        let on_interrupt = move || {
-            if handler.is_cancelled() {
-                // Asked twice: at once, and nothing is written.
-                std::process::exit(i32::from(INTERRUPTED));
-            }
-            handler.cancel();
-        };
-        ctrlc::set_handler(on_interrupt).context("no handler for Ctrl-C")?;
         Ok(Self {
             args,
             seed,
@@ -101,6 +92,7 @@ impl<'a> Session<'a> {
         if is_warped {
             self.time("warp", || warp(&mut points));
         }
+        self.catch_interrupt()?;
         let bar = self.bar();
         let mut clock = PhaseClock::default();
         let cancel = self.cancel.clone();
@@ -125,6 +117,22 @@ impl<'a> Session<'a> {
             self.note("all points lay on one line and were spread first".into());
         }
         self.finish(points, "procrustes", Some(report))
+    }
+
+    /// From here on Ctrl-C ends the run after the iteration at hand; before, there is nothing to keep.
+    fn catch_interrupt(&self) -> anyhow::Result<()> {
+        let (cancel, is_quiet) = (self.cancel.clone(), self.args.quiet);
+        let on_interrupt = move || {
+            if cancel.is_cancelled() {
+                // Asked twice: at once, and nothing is written.
+                std::process::exit(i32::from(INTERRUPTED));
+            }
+            cancel.cancel();
+            if !is_quiet {
+                eprintln!("interrupted: writing the state reached; once more to stop at once");
+            }
+        };
+        ctrlc::set_handler(on_interrupt).context("no handler for Ctrl-C")
     }
 
     /// Measures the points, writes them and the record, and says how it went.
@@ -177,9 +185,15 @@ impl<'a> Session<'a> {
         let seed = self.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
         eprintln!("{}: {} points{seed}{how}, {seconds:.2} s", self.output.name(), points.n_points());
         if let Some(m) = measures {
+            let angles = if m.angle_rms_deg.is_nan() {
+                "no triangle".to_owned()
+            } else {
+                format!("angles {:.1} to {:.1} degrees (rms {:.2} from 60)", m.min_angle_deg, m.max_angle_deg, m.angle_rms_deg)
+            };
+            let (spacing, beta) = (m.hex_spacing, m.beta);
             eprintln!(
-                "min distance {:.3}, coverage radius {:.3}, beta {:.3}, angles {:.1} to {:.1} degrees (rms {:.2} from 60)",
-                m.min_distance, m.coverage_radius, m.beta, m.min_angle_deg, m.max_angle_deg, m.angle_rms_deg
+                "in hexagonal spacings of {spacing:.4e}: min distance {:.3}, coverage radius {:.3}, beta {beta:.3}; {angles}",
+                m.min_distance, m.coverage_radius
             );
         }
         if self.args.verbose {

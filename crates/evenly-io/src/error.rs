@@ -8,12 +8,12 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum Error {
     /// The operating system says no.
-    #[error("{name}: {source}")]
+    #[error("{name}: {reason}")]
     Io {
         /// The file's name as it was given.
         name: String,
         /// Why.
-        source: io::Error,
+        reason: io::Error,
     },
     /// The file's content makes no sense.
     #[error("{name}: {problem}")]
@@ -44,7 +44,7 @@ pub enum Error {
 impl Error {
     pub(crate) fn io(name: &str) -> impl FnOnce(io::Error) -> Self {
         let name = name.to_owned();
-        move |source| Self::Io { name, source }
+        move |reason| Self::Io { name, reason }
     }
 
     pub(crate) fn content(name: impl Into<String>, problem: impl Into<String>) -> Self {

@@ -84,7 +84,7 @@ impl Canvas {
 
     fn begin(&self, recipe: &str) -> String {
         let [width, height] = self.size.map(|side| Short(side * self.scale + 2.0 * self.margin));
-        let recipe = recipe.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+        let recipe = recipe.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace(char::is_control, " ");
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
              <desc>{recipe}</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
@@ -95,17 +95,21 @@ impl Canvas {
         [self.margin + (p[0] - self.origin[0]) * self.scale, self.margin + (self.origin[1] + self.size[1] - p[1]) * self.scale]
     }
 
+    /// Dots as circles of two arcs, a thousand to a path: a million single elements are too many for most programs.
     fn points(&self, svg: &mut String, points: &PointSet) {
         let radius = (0.16 * self.spacing).clamp(0.25, 4.0);
-        let _ = writeln!(svg, "<g fill=\"#000000\">");
-        for &p in points.positions() {
-            for shift in self.images(&[p], radius) {
-                let [x, y] = self.place(p);
-                let [x, y] = [Short(x + shift[0]), Short(y + shift[1])];
-                let _ = writeln!(svg, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{}\"/>", Short(radius));
+        let (r, d) = (Short(radius), Short(2.0 * radius));
+        for group in points.positions().chunks(1000) {
+            svg.push_str("<path fill=\"#000000\" d=\"");
+            for &p in group {
+                for shift in self.images(&[p], radius) {
+                    let [x, y] = self.place(p);
+                    let (left, y) = (Short(x + shift[0] - radius), Short(y + shift[1]));
+                    let _ = write!(svg, "M{left} {y}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z");
+                }
             }
+            svg.push_str("\"/>\n");
         }
-        svg.push_str("</g>\n");
     }
 
     fn outlines<'a>(&self, svg: &mut String, polygons: impl Iterator<Item = &'a [[f64; 2]]>, colour: &str) {
@@ -135,12 +139,15 @@ impl Canvas {
         let width = Short((0.08 * self.spacing).max(0.1));
         let _ = write!(svg, "<path fill=\"none\" stroke=\"#000000\" stroke-width=\"{width}\" d=\"");
         for (&p, valence) in points.positions().iter().zip(&tessellation.valence) {
-            let [x, y] = self.place(p);
-            if matches!(valence, Some(5 | 7)) {
-                let _ = write!(svg, "M{} {}h{}", Short(x - half), Short(y), Short(2.0 * half));
-            }
-            if *valence == Some(7) {
-                let _ = write!(svg, "M{} {}v{}", Short(x), Short(y - half), Short(2.0 * half));
+            for shift in self.images(&[p], half) {
+                let [x, y] = self.place(p);
+                let [x, y] = [x + shift[0], y + shift[1]];
+                if matches!(valence, Some(5 | 7)) {
+                    let _ = write!(svg, "M{} {}h{}", Short(x - half), Short(y), Short(2.0 * half));
+                }
+                if *valence == Some(7) {
+                    let _ = write!(svg, "M{} {}v{}", Short(x), Short(y - half), Short(2.0 * half));
+                }
             }
         }
         svg.push_str("\"/>\n");

@@ -77,6 +77,16 @@ impl Target {
         self.format
     }
 
+    /// Whether both are the same file, or both stdout.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let place = |target: &Self| {
+            let file = std::path::absolute(target.file()).unwrap_or_else(|_| target.file());
+            let folder = file.parent().and_then(|folder| folder.canonicalize().ok());
+            folder.zip(file.file_name().map(OsStr::to_owned))
+        };
+        self.path == other.path || (!self.is_stdout() && !other.is_stdout() && place(self).is_some() && place(self) == place(other))
+    }
+
     fn check_writable(&self) -> Result<(), Error> {
         if self.path.is_dir() {
             return Err(Error::content(self.name(), "this is a directory; name a file in it"));
@@ -112,7 +122,8 @@ impl Target {
         builder.prefix(".evenly-");
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        builder.tempfile_in(folder).map_err(Error::io(&self.name()))
+        // The reason alone: the temporary file's own name says nothing to anybody.
+        builder.tempfile_in(folder).map_err(|e| Error::io(&self.name())(e.kind().into()))
     }
 
     /// Writes everything: to a temporary file that then takes the target's name, or to stdout.
@@ -129,10 +140,13 @@ impl Target {
         }
         let mut file = self.temporary()?;
         file.write_all(bytes).and_then(|()| file.as_file().sync_all()).map_err(Error::io(&name))?;
+        if let Ok(old) = self.file().metadata() {
+            file.as_file().set_permissions(old.permissions()).map_err(Error::io(&name))?;
+        }
         let kept = if self.may_overwrite { file.persist(self.file()) } else { file.persist_noclobber(self.file()) };
         kept.map(drop).map_err(|e| match e.error.kind() {
             std::io::ErrorKind::AlreadyExists => Error::Exists(name),
-            _ => Error::Io { name, source: e.error },
+            _ => Error::Io { name, reason: e.error },
         })
     }
 }

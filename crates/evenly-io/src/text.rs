@@ -17,7 +17,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
     let mut is_first = true;
     for (number, line) in (1..).zip(text.lines()) {
         let line = line.split('#').next().unwrap_or_default();
-        let is_separator = |c: char| c.is_whitespace() || c == ',' || c == ';';
+        let is_separator = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
         let mut fields = line.split(is_separator).filter(|field| !field.is_empty());
         let Some(first) = fields.next() else { continue };
         let at = || format!("{name}:{number}");
@@ -34,7 +34,8 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
                 let plural = if n == 1 { "" } else { "s" };
                 return Err(Error::content(at(), format!("{n} number{plural}, expected 2 (x y)")));
             }
-            (Err(_), _) if was_first && first.starts_with(|c: char| c.is_alphabetic() || c == '"') && !is_number(first) => {}
+            // A line of names.
+            (Err(_), rest) if was_first && !is_number(first) && !rest.iter().any(|field| is_number(field)) => {}
             (Err(problem), _) => return Err(Error::content(at(), problem)),
         }
     }
@@ -116,6 +117,7 @@ mod tests {
             "# a comment\r\n\r\n1,2\r\n-3.5,0.004\r\n",
             "x,y\n1, 2\n-3.5, .004",
             "\u{feff}\"x\";\"y\"\n1;2\n-3.5;0.004",
+            "\"1\",\"2\"\n\"-3.5\",\"0.004\"",
             "\t1\t2 # the first\n\n -3.5  +4E-3",
         ] {
             assert_eq!(read("p.txt", text.as_bytes()).unwrap(), expected, "{text:?}");
@@ -130,6 +132,9 @@ mod tests {
         assert_eq!(message("inf 1"), "p.txt:1: inf is not a finite number");
         assert_eq!(message("1 1e999"), "p.txt:1: 1e999 is not a finite number");
         assert_eq!(message("1 2\nx 3"), "p.txt:2: 'x' is not a number");
+        assert_eq!(message("N/A,0.5\n1,2"), "p.txt:1: 'N/A' is not a number");
+        assert_eq!(message("O.5 0.5\n1 2"), "p.txt:1: 'O.5' is not a number");
+        assert!(message("<svg>\n<g>\n1 2").starts_with("p.txt:2: '<g>' is not a number"));
         assert_eq!(message("1 x"), "p.txt:1: 'x' is not a number");
         assert_eq!(message("3\n1 2\n"), "p.txt: its first line promises 3 points, but there are 1");
         assert_eq!(message(""), "p.txt: there are no points in it");

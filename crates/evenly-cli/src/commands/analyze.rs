@@ -44,7 +44,8 @@ fn table(measures: &Measures) -> String {
                 serde_json::Value::Object(counts) => {
                     counts.iter().map(|(key, count)| format!("{key}: {count}")).collect::<Vec<_>>().join(", ")
                 }
-                serde_json::Value::Null => "infinite".into(),
+                serde_json::Value::Null if name == "beta" => "infinite".into(),
+                serde_json::Value::Null => "-".into(),
                 other => other.to_string(),
             };
             let _ = writeln!(text, "{name:<24} {value}");

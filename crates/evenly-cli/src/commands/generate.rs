@@ -9,6 +9,7 @@ use crate::session::Session;
 
 pub fn run(args: &Generate) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
+    args.procrustes.params().validate()?;
     let mut session = Session::new(&args.run, Some(args.seed))?;
     let start = match args.method {
         GenerateMethod::Procrustes => args.start,

@@ -10,6 +10,7 @@ use crate::session::Session;
 
 pub fn run(args: &Optimize) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
+    args.procrustes.params().validate()?;
     let mut session = Session::new(&args.run, None)?;
     let (mut points, note) = session.time("read", || input::read(&args.input, space))?;
     if let Some(note) = note {

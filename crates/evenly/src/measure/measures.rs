@@ -14,7 +14,7 @@ use crate::points::PointSet;
 /// What [`measure`] finds. Lengths are in hexagonal spacings, `sqrt(2 A / (sqrt(3) n))`; capacities in mean capacities, `A / n`.
 ///
 /// In a rectangle Voronoi cells are clipped to the domain, triangles are the dual of the clipped diagram,
-/// and the measures of order and the valences leave out vertices whose cell reaches the border.
+/// and the measures of order and the valences leave out vertices whose cell reaches the border. Angles are NaN where there is no triangle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measures {
     /// How many points there are.
@@ -36,7 +36,7 @@ pub struct Measures {
     /// The definition of the tool psa: sum over the points of |sum over the edges between consecutive neighbours of exp(6 i theta)|,
     /// divided by the sum of valences.
     pub bond_order_psa: f64,
-    /// |mean over all points and their neighbours of exp(6 i theta)|: near 0 unless one lattice fills the domain.
+    /// |mean over the points of the mean over its neighbours of exp(6 i theta)|: near 0 unless one lattice fills the domain.
     pub bond_order_global: f64,
     /// Standard deviation of the Voronoi cells' areas.
     pub capacity_sd: f64,
@@ -139,8 +139,8 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         capacity_max_deviation: sums.capacity_deviation,
         angle_rms_deg: triangles.all.angle_rms_deg(),
         triangle_quality: triangles.all.quality(),
-        min_angle_deg: triangles.all.min_angle_deg,
-        max_angle_deg: triangles.all.max_angle_deg,
+        min_angle_deg: triangles.all.min_angle_deg(),
+        max_angle_deg: triangles.all.max_angle_deg(),
         obtuse_fraction: triangles.all.obtuse_fraction(),
         valence: sums.valence,
         border: (!triangulation.domain.is_periodic).then(|| BorderMeasures {

@@ -12,8 +12,8 @@ pub(super) struct Shapes {
     angle_squares: f64,
     qualities: f64,
     pub area: f64,
-    pub min_angle_deg: f64,
-    pub max_angle_deg: f64,
+    min_angle_deg: f64,
+    max_angle_deg: f64,
 }
 
 impl Shapes {
@@ -42,6 +42,16 @@ impl Shapes {
 
     pub fn angle_rms_deg(&self) -> f64 {
         (self.angle_squares / (3.0 * self.n_triangles as f64)).sqrt()
+    }
+
+    /// NaN if there are none.
+    pub fn min_angle_deg(&self) -> f64 {
+        if self.n_triangles == 0 { f64::NAN } else { self.min_angle_deg }
+    }
+
+    /// NaN if there are none.
+    pub fn max_angle_deg(&self) -> f64 {
+        if self.n_triangles == 0 { f64::NAN } else { self.max_angle_deg }
     }
 
     pub fn quality(&self) -> f64 {

@@ -46,7 +46,7 @@ pub struct ProcrustesParams {
     /// Side of the model triangle, in hexagonal spacings; the paper's d = 3 r_max is 1.5. It is a stiffness, not a spacing, which is
     /// set by the number of points: smaller is more robust, larger covers more evenly. Outside [1, 1.625] quality falls.
     pub side: f64,
-    /// Stops when an iteration lowers the energy by less than this fraction of the domain's area.
+    /// Stops when an iteration lowers the energy by less than this fraction of the domain's area; in [`Mode::Fast`] when two in a row do.
     pub tolerance: f64,
     /// Stops after this many iterations in any case.
     pub max_iterations: usize,
@@ -55,6 +55,26 @@ pub struct ProcrustesParams {
 impl Default for ProcrustesParams {
     fn default() -> Self {
         Self { mode: Mode::Fast, side: 1.5, tolerance: 2e-5, max_iterations: 500 }
+    }
+}
+
+impl ProcrustesParams {
+    /// Checks the parameters, as [`procrustes`] does before it begins.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] for a side or tolerance that is not positive and finite, or no iterations.
+    pub fn validate(&self) -> Result<(), Error> {
+        let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
+        if !(self.side.is_finite() && self.side > 0.0) {
+            return invalid("side", self.side.to_string(), "positive and finite");
+        }
+        if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
+            return invalid("tolerance", self.tolerance.to_string(), "positive and finite");
+        }
+        if self.max_iterations == 0 {
+            return invalid("max_iterations", "0".into(), "1 or more");
+        }
+        Ok(())
     }
 }
 
@@ -87,7 +107,7 @@ const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 /// # Ok::<(), evenly::Error>(())
 /// ```
 pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut RunContext) -> Result<Report, Error> {
-    validate(params)?;
+    params.validate()?;
     points.space().require_resolution(points.n_points().max(1))?;
     let mut report = Report::new("procrustes", points.n_points());
     if !GOOD_SIDES.contains(&params.side) {
@@ -109,6 +129,9 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     let mut triangulation = delaunay(&domain, &positions, separated.order)?;
     report.triangulations = 1;
     let has_border = !domain.is_periodic && points.n_points() >= border::FEWEST;
+    if !domain.is_periodic && border::is_narrow(domain.size, spacing) {
+        report.notes.push("the rectangle is less than three spacings wide: it is nearly all border, and points are less even there".into());
+    }
     if has_border {
         triangulation = border::settle(triangulation, spacing)?;
         report.triangulations += 1;
@@ -165,20 +188,6 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     let (order, positions) = mesh.into_positions(&domain);
     points.place(&domain, &order, &positions);
     Ok(report)
-}
-
-fn validate(params: &ProcrustesParams) -> Result<(), Error> {
-    let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
-    if !(params.side.is_finite() && params.side > 0.0) {
-        return invalid("side", params.side.to_string(), "positive and finite");
-    }
-    if !(params.tolerance.is_finite() && params.tolerance > 0.0) {
-        return invalid("tolerance", params.tolerance.to_string(), "positive and finite");
-    }
-    if params.max_iterations == 0 {
-        return invalid("max_iterations", "0".into(), "1 or more");
-    }
-    Ok(())
 }
 
 /// Watches the energy fall: when to restart, when to stop, and how far the run has come.

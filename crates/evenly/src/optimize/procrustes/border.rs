@@ -15,6 +15,11 @@ const CLEARANCE: f64 = 0.6;
 /// The fewest points that can sample a border: one a corner.
 pub(super) const FEWEST: usize = 4;
 
+/// Whether a rectangle is too narrow for points on its border and others inside.
+pub(super) fn is_narrow(size: DVec2, spacing: f64) -> bool {
+    size.min_element() < 3.0 * spacing
+}
+
 /// Moves points onto the border: one to each corner, others evenly spaced along the walls; and the rest off it.
 pub(super) fn settle(triangulation: Triangulation, spacing: f64) -> Result<Triangulation, Error> {
     let size = triangulation.domain.size;
