@@ -6,6 +6,8 @@ use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
 use super::half_edges::{BORDER, HalfEdges};
 use crate::error::Error;
+use crate::points::Random;
+use crate::space::Domain;
 
 struct Site {
     position: Point2<f64>,
@@ -47,8 +49,25 @@ pub(super) fn delaunay(points: impl Iterator<Item = DVec2>) -> Result<HalfEdges,
     Ok(HalfEdges { origin, twin })
 }
 
-/// A triangulation that is nearly always Delaunay, by crate `delaunator`: faster, but not exact. It may leave out points and
-/// choose wrong diagonals where points are nearly cocircular; whoever calls it must prove or mend what comes back.
+/// How far points are shaken for `delaunator`, in mean spacings.
+const SHAKE: f64 = 1e-6;
+
+/// Points shaken for [`nearly_delaunay`]; on a wall of a bounded domain only along it.
+pub(super) fn shaken(domain: &Domain, points: &[DVec2]) -> Vec<DVec2> {
+    let mut random = Random::new(0, 4);
+    let amount = SHAKE * (domain.area() / points.len() as f64).sqrt();
+    let mut shake = |p: DVec2| {
+        let x = random.signed();
+        let moved = p + amount * DVec2::new(x, random.signed());
+        let is_free = p.cmpgt(DVec2::ZERO) & p.cmplt(domain.size);
+        if domain.is_periodic { moved } else { DVec2::select(is_free, moved, p) }
+    };
+    points.iter().map(|&p| shake(p)).collect()
+}
+
+/// A triangulation of shaken points that is nearly Delaunay, by crate `delaunator`: faster, but not exact. It may leave out points and
+/// choose wrong diagonals; whoever calls it must prove and mend what comes back. It decides by plain f64, and points on one
+/// circle can send it round for ever: hence the shaking.
 pub(super) fn nearly_delaunay(points: impl Iterator<Item = DVec2>) -> HalfEdges {
     let points: Vec<delaunator::Point> = points.map(|p| delaunator::Point { x: p.x, y: p.y }).collect();
     let delaunator::Triangulation { triangles, halfedges, .. } = delaunator::triangulate(&points);

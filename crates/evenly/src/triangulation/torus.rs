@@ -78,10 +78,16 @@ fn glue(domain: &Domain, points: &[DVec2], halo: DVec2, is_exact: bool) -> Optio
     let copies = halo_copies(domain, points, halo);
     let base = |v: u32| if v < n { v } else { copies[(v - n) as usize].base };
     let shift = |v: u32| if v < n { IVec2::ZERO } else { copies[(v - n) as usize].shift };
-    let position = |v: u32| points[base(v) as usize] + shift(v).as_dvec2() * domain.size;
-    let all = (0..n + copies.len() as u32).map(position);
-    // A jitter may have brought points together; the next one will not.
-    let plane = if is_exact { plane::delaunay(all).ok()? } else { plane::nearly_delaunay(all) };
+    let place = |points: &[DVec2], v: u32| points[base(v) as usize] + shift(v).as_dvec2() * domain.size;
+    let position = |v: u32| place(points, v);
+    let all = 0..n + copies.len() as u32;
+    let plane = if is_exact {
+        // A jitter may have brought points together; the next one will not.
+        plane::delaunay(all.map(position)).ok()?
+    } else {
+        let shaken = plane::shaken(domain, points);
+        plane::nearly_delaunay(all.map(|v| place(&shaken, v)))
+    };
 
     // A triangle is ours where its smallest vertex is no copy.
     let mut ours = plane.filtered(|corners| {
