@@ -313,7 +313,7 @@ fn an_interrupt_writes_the_best_state() {
     let shell = Shell::new();
     let line = "generate -n 300000 --mode paper --no-warp --tolerance 1e-9 -i 100000 -o a.npy --report run.json";
     let child = shell.command(line).stderr(Stdio::piped()).spawn().unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(1500));
+    std::thread::sleep(std::time::Duration::from_secs(4));
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", String::from_utf8_lossy(&output.stderr));

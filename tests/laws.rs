@@ -291,6 +291,7 @@ fn bad_parameters_are_refused_and_leave_the_points_alone() {
         ProcrustesParams { side: 0.0, ..good },
         ProcrustesParams { side: f64::NAN, ..good },
         ProcrustesParams { side: -1.5, ..good },
+        ProcrustesParams { side: 100.0, ..good },
         ProcrustesParams { tolerance: 0.0, ..good },
         ProcrustesParams { tolerance: f64::INFINITY, ..good },
         ProcrustesParams { max_iterations: 0, ..good },
@@ -388,6 +389,10 @@ fn a_point_that_is_there_twice_is_counted_and_has_distance_zero() {
     assert_eq!((m.n_points, m.coincident_points, m.min_distance), (101, 1, 0.0));
     assert_eq!(m.angle_rms_deg, plain.angle_rms_deg);
     assert!(m.mean_distance < plain.mean_distance);
+    // Three alone at .02, two together.
+    let few = vec![[0.1, 0.1], [0.1, 0.1], [0.6, 0.6], [0.62, 0.6], [0.6, 0.62]];
+    let m = measure(&PointSet::new(spaces()[0], few).unwrap()).unwrap();
+    assert!((m.mean_distance * m.hex_spacing - 0.012).abs() < 1e-12);
 }
 
 proptest! {

@@ -1,7 +1,7 @@
 //! The command line of evenly: stdout is data, stderr is talk.
 //!
-//! Exit codes: 0 done; 1 done, but what was asked for was not reached (the best state is written, and said); 2 bad usage or input;
-//! 130 interrupted, best state written.
+//! Exit codes: 0 done; 1 done, but what was asked for was not reached (the state reached is written, and said); 2 bad usage or input;
+//! 130 interrupted, the state reached written.
 
 mod args;
 mod commands;

@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::args::RunArgs;
 use crate::record::{self, Record};
 
-/// Interrupted; the best state is written.
+/// Interrupted; the state reached is written.
 const INTERRUPTED: u8 = 130;
 /// Done, but what was asked for was not reached.
 const NOT_REACHED: u8 = 1;
@@ -141,7 +141,7 @@ impl<'a> Session<'a> {
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
         let recipe = record::recipe(self.seed);
         let start = Instant::now();
-        write_points(&points, &self.draw, &recipe, &self.output)?;
+        self.pool.install(|| write_points(&points, &self.draw, &recipe, &self.output))?;
         self.seconds.insert("write", start.elapsed().as_secs_f64());
         if !self.args.quiet {
             self.summarize(&points, run.as_ref(), measures.as_ref());

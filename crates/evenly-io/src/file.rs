@@ -92,7 +92,7 @@ impl Target {
             return Err(Error::content(self.name(), "this is a directory; name a file in it"));
         }
         if self.is_device() {
-            return self.open_device().map(drop);
+            return Ok(());
         }
         if !self.may_overwrite && self.path.exists() {
             return Err(Error::Exists(self.name()));

@@ -28,7 +28,10 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
                 let y = parse(second).map_err(|problem| Error::content(at(), problem))?;
                 points.push([x, y]);
             }
-            (Ok(_), []) if was_first && first.bytes().all(|c| c.is_ascii_digit()) => count = first.parse().ok(),
+            (Ok(_), []) if was_first && first.bytes().all(|c| c.is_ascii_digit()) => {
+                let problem = |_| Error::content(at(), format!("a count of {first} is too large"));
+                count = Some(first.parse().map_err(problem)?);
+            }
             (Ok(_), _) => {
                 let n = rest.len() + 1;
                 let plural = if n == 1 { "" } else { "s" };

@@ -30,7 +30,7 @@ pub struct Progress {
     pub fraction: f64,
 }
 
-/// A flag that another thread may raise to end a run early; the run then returns its best state.
+/// A flag that another thread may raise to end a run early; the run then returns the state reached.
 #[derive(Debug, Clone, Default)]
 pub struct CancelToken(Arc<AtomicBool>);
 
@@ -91,9 +91,9 @@ impl<'a> RunContext<'a> {
 pub enum Outcome {
     /// The stop criterion was met.
     Converged,
-    /// `max_iterations` came first; the state reached is the best so far.
+    /// `max_iterations` came first; the state reached is kept.
     IterationLimit,
-    /// The run was cancelled; the state reached is the best so far.
+    /// The run was cancelled; the state reached is kept.
     Cancelled,
     /// Fewer than three points: nothing to optimise.
     NothingToDo,
@@ -112,7 +112,7 @@ pub struct Report {
     pub iterations: usize,
     /// The energy before the first iteration and after each, as a fraction of the domain's area.
     pub energy: Vec<f64>,
-    /// How often the energy rose from one iteration to the next, by more than rounding.
+    /// How often the energy rose from one iteration to the next, by more than rounding; steps in which a rectangle's triangulation is built anew do not count.
     pub energy_rises: usize,
     /// Edges flipped in the whole run.
     pub flips: usize,

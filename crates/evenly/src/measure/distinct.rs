@@ -11,8 +11,8 @@ pub(super) struct Distinct {
     pub triangulation: Triangulation,
     /// Points that share their place with an earlier one.
     pub coincident_points: usize,
-    /// Places that more than one point takes.
-    pub shared_places: usize,
+    /// Whether more than one point takes a vertex's place.
+    pub is_shared: Vec<bool>,
 }
 
 impl Distinct {
@@ -21,7 +21,7 @@ impl Distinct {
         let (domain, positions) = points.normalized();
         let order = hilbert_order(&positions, domain.size);
         let mut sorted: Vec<(DVec2, u32)> = order.iter().map(|&i| (positions[i as usize], i)).collect();
-        let shared_places = sorted.chunk_by(|a, b| a.0 == b.0).filter(|place| place.len() > 1).count();
+        let is_shared = sorted.chunk_by(|a, b| a.0 == b.0).map(|place| place.len() > 1).collect();
         sorted.dedup_by_key(|(p, _)| *p);
         if sorted.len() < 3 {
             let text = format!("{} distinct points make no triangulation; measures need three", sorted.len());
@@ -30,6 +30,6 @@ impl Distinct {
         let coincident_points = positions.len() - sorted.len();
         let (sorted, order) = sorted.into_iter().unzip();
         let triangulation = delaunay_sorted(&domain, sorted, order)?;
-        Ok(Self { triangulation, coincident_points, shared_places })
+        Ok(Self { triangulation, coincident_points, is_shared })
     }
 }

@@ -93,11 +93,12 @@ struct Sums {
 /// # Errors
 /// [`Error::Degenerate`] for fewer points, or where a rectangle's points all lie on one line.
 pub fn measure(points: &PointSet) -> Result<Measures, Error> {
-    let Distinct { triangulation, coincident_points, shared_places } = Distinct::triangulate(points)?;
+    let Distinct { triangulation, coincident_points, is_shared } = Distinct::triangulate(points)?;
     let n_distinct = triangulation.n_base();
     let domain_area = triangulation.domain.area() / f64::from(triangulation.copies[0] * triangulation.copies[1]);
     let mean_capacity = domain_area / n_distinct as f64;
-    let spacing = (2.0 * mean_capacity / 3f64.sqrt()).sqrt();
+    let n_points = points.n_points();
+    let spacing = (2.0 * domain_area / (3f64.sqrt() * n_points as f64)).sqrt();
 
     let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
     let parts: Vec<Sums> = (0..n_distinct)
@@ -107,7 +108,7 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
             let mut reader = StarReader::new(&triangulation, &outgoing);
             let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
             for &vertex in vertices {
-                sums.add(reader.read(vertex), mean_capacity);
+                sums.add(reader.read(vertex), mean_capacity, is_shared[vertex]);
             }
             sums
         })
@@ -118,18 +119,15 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
     }
 
     let triangles = triangles::measure(&triangulation);
-    let n_points = points.n_points();
     let n_inner = (sums.n_inner as f64).max(1.0);
     let min_distance = if coincident_points > 0 { 0.0 } else { sums.min_distance / spacing };
     let coverage_radius = sums.reach / spacing;
-    // A point that shares its place has its nearest neighbour at distance 0.
-    let alone = (n_distinct - shared_places) as f64 / n_distinct as f64;
     Ok(Measures {
         n_points,
         hex_spacing: points.space().hex_spacing(n_points),
         coincident_points,
         min_distance,
-        mean_distance: alone * sums.distance / n_points as f64 / spacing,
+        mean_distance: sums.distance / n_points as f64 / spacing,
         coverage_radius,
         beta: coverage_radius / min_distance,
         bond_order: sums.bond_order / n_inner,
@@ -153,9 +151,10 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
 }
 
 impl Sums {
-    fn add(&mut self, star: StarMeasures, mean_capacity: f64) {
+    fn add(&mut self, star: StarMeasures, mean_capacity: f64, is_shared: bool) {
         self.min_distance = self.min_distance.min(star.nearest);
-        self.distance += star.nearest;
+        // A point that shares its place has its nearest neighbour at distance 0.
+        self.distance += if is_shared { 0.0 } else { star.nearest };
         self.reach = self.reach.max(star.reach);
         let deviation = star.capacity / mean_capacity - 1.0;
         self.capacity_squares += deviation * deviation;

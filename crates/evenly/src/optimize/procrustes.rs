@@ -31,14 +31,14 @@ use crate::triangulation::delaunay;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mode {
-    /// The paper's plain steps: the energy never rises.
+    /// The paper's plain steps: the energy never rises, but where a rectangle's triangulation is built anew.
     Paper,
     /// Momentum, restarted if the energy keeps rising: fewer iterations and a lower energy.
     #[default]
     Fast,
 }
 
-/// What [`procrustes`] can be told.
+/// What [`procrustes`] can be told. There is no seed: edges are visited in a fixed order, and chance lies in the starting points.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ProcrustesParams {
     /// Plain steps or momentum.
@@ -62,11 +62,11 @@ impl ProcrustesParams {
     /// Checks the parameters, as [`procrustes`] does before it begins.
     ///
     /// # Errors
-    /// [`Error::InvalidParameter`] for a side or tolerance that is not positive and finite, or no iterations.
+    /// [`Error::InvalidParameter`] for a side outside (0, 8], a tolerance that is not positive and finite, or no iterations.
     pub fn validate(&self) -> Result<(), Error> {
         let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
-        if !(self.side.is_finite() && self.side > 0.0) {
-            return invalid("side", self.side.to_string(), "positive and finite");
+        if !(self.side > 0.0 && self.side <= LARGEST_SIDE) {
+            return invalid("side", self.side.to_string(), "positive, and 8 at most");
         }
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
             return invalid("tolerance", self.tolerance.to_string(), "positive and finite");
@@ -82,6 +82,8 @@ impl ProcrustesParams {
 const MOMENTUM: f64 = 0.7;
 /// The first iterations of [`Mode::Fast`], in which nine in ten flips happen.
 const ALWAYS_FLIP: usize = 8;
+/// Larger sides would throw points further than a period.
+const LARGEST_SIDE: f64 = 8.0;
 /// Sides within which the quality holds.
 const GOOD_SIDES: std::ops::RangeInclusive<f64> = 1.0..=1.625;
 /// Changes of the energy below this are rounding: a set at rest sways by them.
@@ -92,8 +94,9 @@ const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 /// Optimises `points` in place; their number and order stay.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] for a side or tolerance that is not positive and finite, or no iterations;
-/// [`Error::TooFine`] where f64 cannot tell the points apart. The points are untouched then.
+/// [`Error::InvalidParameter`] for a side outside (0, 8], a tolerance that is not positive and finite, or no iterations;
+/// [`Error::TooFine`] where f64 cannot tell the points apart; [`Error::Degenerate`] where they cannot be triangulated. The points are
+/// untouched then.
 ///
 /// # Example
 /// ```

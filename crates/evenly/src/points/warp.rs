@@ -40,8 +40,11 @@ impl Cell {
     }
 }
 
-/// Spreads the points' density evenly over the domain: every part gets area in proportion to its points.
+/// Spreads the points' density evenly over the domain: every part gets area in proportion to its points. Fewer than three stay.
 pub fn warp(points: &mut PointSet) {
+    if points.n_points() < 3 {
+        return;
+    }
     let (domain, positions) = points.normalized();
     let mut indexed: Vec<Indexed> = positions.into_iter().zip(0..).collect();
     let cell = Cell { low: DVec2::ZERO, high: domain.size };
