@@ -34,8 +34,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let report = procrustes(&mut points, &params, &mut RunContext::default())?;
         curve(&mut svg, &report.energy, colour, dash)?;
         let y = MARGIN + 22.0 * row as f64;
-        writeln!(svg, "<path stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"{dash}\" d=\"M360 {y}h40\"/>")?;
-        writeln!(svg, "<text x=\"410\" y=\"{}\">{name}, {} iterations</text>", y + 4.0, report.iterations)?;
+        writeln!(svg, "<path stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"{dash}\" d=\"M320 {y}h40\"/>")?;
+        writeln!(svg, "<text x=\"370\" y=\"{}\">{name}, {} iterations</text>", y + 4.0, report.iterations)?;
     }
     svg.push_str("</svg>\n");
     Target::any(path.as_ref(), true)?.write(svg.as_bytes())?;
