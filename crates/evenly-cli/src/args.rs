@@ -118,7 +118,7 @@ pub struct SpaceArgs {
 
 #[derive(Args)]
 pub struct ProcrustesArgs {
-    /// paper: plain steps, the energy never rises; fast: momentum
+    /// paper: plain steps, the energy never rises (but where a rectangle is triangulated anew); fast: momentum
     #[arg(long, value_enum, default_value = "fast", help_heading = "Procrustes")]
     pub mode: ModeArg,
     /// Side of the model triangle in hexagonal spacings, good within 1 to 1.625

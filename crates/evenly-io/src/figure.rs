@@ -19,12 +19,6 @@ pub enum Draw {
     Points,
 }
 
-impl Draw {
-    /// All layers, by name.
-    pub const ALL: [(&'static str, Self); 4] =
-        [("points", Self::Points), ("delaunay", Self::Delaunay), ("voronoi", Self::Voronoi), ("valence", Self::Valence)];
-}
-
 /// The longer side of the drawing, in its own units.
 const SIDE: f64 = 800.0;
 /// Blank space around a bounded domain, so that points on its border are seen whole. A torus has none: its picture tiles the plane.
