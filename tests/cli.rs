@@ -156,6 +156,56 @@ fn the_report_holds_the_whole_run() {
 }
 
 #[test]
+fn push_pull_reaches_its_targets_and_reports_its_passes() {
+    let shell = Shell::new();
+    for (flags, unwanted) in [
+        ("", ""),
+        ("--preset tough", ""),
+        ("--preset fast --relaxation 1.2", ""),
+        ("--min-distance 0.8 --coverage-radius 0.7 --capacity-tolerance 0.1", ""),
+        ("--min-distance 0.8", "coverage_radius"),
+        ("--coverage-radius 0.7 --capacity-tolerance off", "min_distance capacity_tolerance"),
+        ("--capacity-tolerance 0.05", "min_distance coverage_radius"),
+        ("--preset balanced --min-distance off", "min_distance"),
+        ("--schedule summed", ""),
+    ] {
+        for space in ["torus --size 3,1", "rect --size 2,2 --origin -1,7"] {
+            let line = format!("generate -n 700 --method push-pull --space {space} {flags} -q -o a.txt --force --json");
+            let record = json(&shell.ok(&line));
+            let (run, measures, parameters) = (&record["run"], &record["measures"], &record["parameters"]);
+            assert_eq!(run["outcome"], "converged", "{line}");
+            for (name, measure, sign) in [
+                ("min_distance", "min_distance", -1.0),
+                ("coverage_radius", "coverage_radius", 1.0),
+                ("capacity_tolerance", "capacity_max_deviation", 1.0),
+            ] {
+                let wanted = parameters[name].as_f64();
+                assert_eq!(wanted.is_none(), unwanted.contains(name), "{line}: {name}");
+                let measured = measures[measure].as_f64().unwrap();
+                assert!(wanted.is_none_or(|wanted| sign * (measured - wanted) < 1e-6), "{line}: {name} {measured}");
+            }
+            let shares = run["stable_share"].as_array().unwrap();
+            assert_eq!(shares.len() as u64, run["iterations"].as_u64().unwrap(), "{line}");
+            assert_eq!(shares.last().unwrap(), 1.0, "{line}");
+            assert!(run["visits"].as_u64().unwrap() > 700, "{line}");
+        }
+    }
+    shell.ok("optimize a.txt --method push-pull --space rect --size 2,2 --origin -1,7 --seed 3 -o b.csv --report run.json");
+    assert_eq!(json(&shell.read("run.json"))["seed"], 3);
+}
+
+#[test]
+fn targets_that_are_not_reached_are_told_with_what_was_measured() {
+    let shell = Shell::new();
+    let output = shell.run("generate -n 500 --method push-pull --min-distance 0.97 --coverage-radius 0.6 -i 40 -o a.txt");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.contains("the nearest that are: min distance 0.91 with coverage radius 0.62"), "{said}");
+    assert!(said.contains("not converged in 40 passes") && said.contains("not reached: min distance is 0."), "{said}");
+    assert_eq!(shell.read("a.txt").lines().filter(|line| !line.starts_with('#')).count(), 500);
+}
+
+#[test]
 fn analysis_has_every_measure() {
     let shell = Shell::new();
     shell.ok("generate -n 300 -q -o a.txt");
@@ -236,6 +286,19 @@ fn bad_input_gets_one_line_and_no_file() {
         ("generate -n 10 -o o.txt --tolerance -1", "tolerance"),
         ("generate -n 10 -o o.txt -i 0", "max_iterations is 0"),
         ("generate -n 10 -o o.txt --method nonsense", "nonsense"),
+        ("generate -n 10 -o o.txt --method push-pull --min-distance 1.1", "min_distance is 1.1"),
+        ("generate -n 10 -o o.txt --method push-pull --min-distance NaN", "min_distance is NaN"),
+        ("generate -n 10 -o o.txt --method push-pull --min-distance some", "a number, or off"),
+        ("generate -n 10 -o o.txt --method push-pull --coverage-radius 0.5", "coverage_radius is 0.5"),
+        ("generate -n 10 -o o.txt --method push-pull --capacity-tolerance -0.1", "capacity_tolerance is -0.1"),
+        ("generate -n 10 -o o.txt --method push-pull --capacity-tolerance off", "there is no target"),
+        ("generate -n 10 -o o.txt --method push-pull --relaxation 2", "relaxation is 2"),
+        ("generate -n 10 -o o.txt --method push-pull -i 0", "max_passes is 0"),
+        ("generate -n 10 -o o.txt --method push-pull --preset nonsense", "nonsense"),
+        ("generate -n 10 -o o.txt --method push-pull --side 1", "--side is for --method procrustes"),
+        ("generate -n 10 -o o.txt --preset tough", "--preset is for --method push-pull"),
+        ("generate -n 10 -o o.txt --method white --mode fast", "--mode is for --method procrustes"),
+        ("optimize good.txt -o o.txt --method warp -i 3", "--iterations is for"),
         ("generate -n 10 -o o.txt --nonsense", "--nonsense"),
         ("generate -n 10 -o good.txt", "good.txt exists already; pass --force"),
         ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .svg .png"),

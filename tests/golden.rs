@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
-use evenly::{Measures, Mode, ProcrustesParams, Rectangle, Report, RunContext, Space, Torus, jittered, measure, procrustes, warp, white};
+use evenly::{
+    Measures, Mode, Outcome, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Torus,
+    jittered, measure, procrustes, push_pull, warp, warp_isotropic, white,
+};
 
 const SEEDS: std::ops::Range<u64> = 0..5;
 
@@ -86,4 +89,104 @@ fn rectangles_are_covered_to_the_border() {
             assert_eq!((report.inverted_triangles, border.isolated_points), (0, 0), "{case}");
         }
     }
+}
+
+/// Push-pull on white noise, warped or not, in any case converged: the measures are those of a fresh triangulation.
+fn pushed(space: Space, n: usize, seed: u64, params: &PushPullParams, is_warped: bool) -> (Measures, Report) {
+    let mut points = white(space, n, seed).unwrap();
+    if is_warped {
+        warp_isotropic(&mut points);
+    }
+    let report = push_pull(&mut points, params, &mut RunContext::default()).unwrap();
+    let measures = measure(&points).unwrap();
+    assert_eq!(report.outcome, Outcome::Converged, "{space}, {n}, {seed}: {params:?}");
+    assert_eq!(params.unmet(&measures), [], "{space}, {n}, {seed}: {params:?}");
+    (measures, report)
+}
+
+/// Rows 1 and 2 of the paper's Table 1, whose sets have about a thousand points: davg .847 and .905, BOO (the tool psa's) .487 and .499.
+#[test]
+fn the_first_rows_of_the_papers_table() {
+    for (preset, mean_distance, bond_order) in [(PushPullPreset::Paper1, 0.847, 0.487), (PushPullPreset::Paper2, 0.905, 0.499)] {
+        let runs: Vec<Measures> = (0..8).map(|seed| pushed(torus(), 1024, seed, &PushPullParams::preset(preset), false).0).collect();
+        let mean = |value: fn(&Measures) -> f64| runs.iter().map(value).sum::<f64>() / runs.len() as f64;
+        assert!((mean(|m| m.mean_distance) - mean_distance).abs() < 0.005, "{preset:?}: {}", mean(|m| m.mean_distance));
+        assert!((mean(|m| m.bond_order_psa) - bond_order).abs() < 0.03, "{preset:?}: {}", mean(|m| m.bond_order_psa));
+    }
+}
+
+/// Row 3, which does not converge in the authors' own program: davg .922. It does with a tolerance of 0.1 and a relaxation of 1.2.
+#[test]
+fn the_third_row_of_the_papers_table() {
+    for seed in 0..8 {
+        let (m, _) = pushed(torus(), 1024, seed, &PushPullParams::preset(PushPullPreset::Paper3), false);
+        assert!(m.beta <= 0.675 && m.obtuse_fraction == 0.0, "{seed}: {m:?}");
+        assert!((m.mean_distance - 0.922).abs() < 0.005, "{seed}: {}", m.mean_distance);
+    }
+}
+
+/// sin(theta) >= r_f / (2 r_c): {0.90, 0.63} keeps all angles within 45.5 and 89 degrees.
+#[test]
+fn no_triangle_is_obtuse() {
+    let params = PushPullParams { min_distance: Some(0.90), coverage_radius: Some(0.63), ..PushPullParams::default() };
+    for (n, seeds) in [(1000, 8), (10_000, 3)] {
+        for seed in 0..seeds {
+            let (m, _) = pushed(torus(), n, seed, &params, true);
+            assert!(m.min_angle_deg >= 45.5 && m.max_angle_deg <= 89.0, "{n}, {seed}: {m:?}");
+            assert_eq!(m.obtuse_fraction, 0.0);
+        }
+    }
+}
+
+#[test]
+fn every_preset_converges_from_warped_noise() {
+    for preset in [PushPullPreset::Fast, PushPullPreset::Balanced, PushPullPreset::Tough, PushPullPreset::Paper1, PushPullPreset::Paper3] {
+        pushed(torus(), 1000, 9, &PushPullParams::preset(preset), true);
+        pushed(torus(), 10_000, 9, &PushPullParams::preset(preset), true);
+    }
+    for preset in [PushPullPreset::Fast, PushPullPreset::Balanced, PushPullPreset::Tough] {
+        for width in [1.0, 4.0] {
+            pushed(rectangle(width), 3000, 9, &PushPullParams::preset(preset), true);
+        }
+    }
+}
+
+/// Each target alone, and the paper's parallel variant, which takes several times the visits.
+#[test]
+fn targets_may_be_left_out_and_moves_summed() {
+    let all = PushPullParams::default();
+    let none = PushPullParams { min_distance: None, coverage_radius: None, capacity_tolerance: None, ..all };
+    for space in [torus(), rectangle(1.0)] {
+        for params in [
+            PushPullParams { min_distance: Some(0.85), ..none },
+            PushPullParams { coverage_radius: Some(0.67), ..none },
+            PushPullParams { capacity_tolerance: Some(0.02), ..none },
+            PushPullParams { min_distance: None, ..all },
+            PushPullParams { coverage_radius: None, ..all },
+            PushPullParams { capacity_tolerance: None, ..all },
+        ] {
+            pushed(space, 1000, 4, &params, true);
+        }
+    }
+    let (_, in_turn) = pushed(torus(), 2500, 4, &all, true);
+    let (_, summed) = pushed(torus(), 2500, 4, &PushPullParams { schedule: Schedule::Summed, relaxation: 0.5, ..all }, true);
+    assert!(summed.visits > 2 * in_turn.visits, "{} {}", summed.visits, in_turn.visits);
+}
+
+/// Time is linear: about 21 visits a point, whatever their number.
+#[test]
+fn visits_a_point_do_not_grow() {
+    for n in [10_000, 100_000] {
+        let (_, report) = pushed(torus(), n, 2, &PushPullParams::default(), true);
+        let visits = report.visits as f64 / n as f64;
+        assert!((19.0..24.0).contains(&visits), "{n}: {visits}");
+    }
+}
+
+/// A relaxation that diverges at {0.94, 0.65} is given up, and the targets are still reached.
+#[test]
+fn a_relaxation_that_diverges_is_given_up() {
+    let params = PushPullParams { min_distance: Some(0.94), coverage_radius: Some(0.65), relaxation: 1.2, ..PushPullParams::default() };
+    let (_, report) = pushed(torus(), 1024, 1, &params, true);
+    assert!(report.notes.iter().any(|note| note.contains("relaxation 1.2 diverges")), "{:?}", report.notes);
 }

@@ -2,18 +2,22 @@
 
 use std::path::PathBuf;
 
+use anyhow::bail;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use evenly::{MAX_POINTS, Mode, ProcrustesParams, Rectangle, Space, Torus};
+use evenly::{MAX_POINTS, Mode, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Schedule, Space, Torus};
 use evenly_io::{Draw, Format};
+
+use crate::optimizer::Optimizer;
 
 const EXAMPLES: &str = "\
 Examples:
   evenly generate -n 10000 --method procrustes -o points.svg
   evenly generate -n 10000 --seed 7 -o points.txt --report run.json
+  evenly generate -n 10000 --method push-pull --min-distance 0.85 --coverage-radius 0.67 -o points.csv
   evenly optimize points.csv --size 640,480 -o better.csv
   evenly analyze better.csv --size 640,480 --json
 
-Exit codes: 0 done; 1 done, but not converged; 2 bad usage or input, or no output; 130 interrupted, state reached written";
+Exit codes: 0 done; 1 done, but not converged or a target not reached; 2 bad usage or input, or no output; 130 interrupted, state reached written";
 
 /// Spreads points evenly, but not regularly: blue noise.
 #[derive(Parser)]
@@ -58,7 +62,7 @@ pub struct Generate {
     #[command(flatten)]
     pub space: SpaceArgs,
     #[command(flatten)]
-    pub procrustes: ProcrustesArgs,
+    pub optimizer: OptimizerArgs,
     #[command(flatten)]
     pub run: RunArgs,
 }
@@ -71,10 +75,13 @@ pub struct Optimize {
     /// How they are improved
     #[arg(long, value_enum, default_value = "procrustes")]
     pub method: OptimizeMethod,
+    /// The same seed gives the same points; Procrustes analysis uses none
+    #[arg(short, long, value_name = "SEED", default_value_t = 0)]
+    pub seed: u64,
     #[command(flatten)]
     pub space: SpaceArgs,
     #[command(flatten)]
-    pub procrustes: ProcrustesArgs,
+    pub optimizer: OptimizerArgs,
     #[command(flatten)]
     pub run: RunArgs,
 }
@@ -116,24 +123,62 @@ pub struct SpaceArgs {
     pub origin: [f64; 2],
 }
 
+/// What an optimiser can be told. Flags of one method are refused by another.
 #[derive(Args)]
-pub struct ProcrustesArgs {
-    /// paper: plain steps, the energy never rises (but where a rectangle is triangulated anew); fast: momentum
-    #[arg(long, value_enum, default_value = "fast", help_heading = "Procrustes")]
-    pub mode: ModeArg,
-    /// Side of the model triangle in hexagonal spacings, good within 1 to 1.625
-    #[arg(long, value_name = "D", default_value_t = ProcrustesParams::default().side, allow_negative_numbers = true, help_heading = "Procrustes")]
-    pub side: f64,
-    /// Stop when an iteration (fast: two in a row) gains less than this share of the domain's area
-    #[arg(long, value_name = "T", default_value_t = ProcrustesParams::default().tolerance, allow_negative_numbers = true, help_heading = "Procrustes")]
-    pub tolerance: f64,
-    /// Stop after so many iterations in any case
-    #[arg(short, long, value_name = "I", default_value_t = ProcrustesParams::default().max_iterations, help_heading = "Procrustes")]
-    pub iterations: usize,
+pub struct OptimizerArgs {
     /// Keep the start's own long density waves; without it white noise, and any input, is evened out first
-    #[arg(long, help_heading = "Procrustes")]
+    #[arg(long)]
     pub no_warp: bool,
+    /// Stop after so many iterations or passes in any case [default: 500; push-pull: 2000, more for more than 1000 points]
+    #[arg(short, long, value_name = "I")]
+    iterations: Option<usize>,
+    #[command(flatten)]
+    procrustes: ProcrustesArgs,
+    #[command(flatten)]
+    push_pull: PushPullArgs,
 }
+
+#[derive(Args)]
+#[command(next_help_heading = "Procrustes")]
+struct ProcrustesArgs {
+    /// paper: plain steps, the energy never rises (but where a rectangle is triangulated anew); fast: momentum [default: fast]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    mode: Option<ModeArg>,
+    /// Side of the model triangle in hexagonal spacings, good within 1 to 1.625 [default: 1.5]
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    side: Option<f64>,
+    /// Stop when an iteration (fast: two in a row) gains less than this share of the domain's area [default: 0.00002]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+}
+
+#[derive(Args)]
+#[command(next_help_heading = "Push-Pull")]
+struct PushPullArgs {
+    /// Targets, with the tolerance and relaxation that they need; the flags below change them one by one [default: balanced]
+    #[arg(long, value_enum)]
+    preset: Option<PresetArg>,
+    /// No two points nearer than this many hexagonal spacings, up to 1; or off
+    #[arg(long, value_name = "R", value_parser = parse_target, allow_negative_numbers = true)]
+    min_distance: Option<Target>,
+    /// No place farther from a point than this many hexagonal spacings, 0.577 at least; or off
+    #[arg(long, value_name = "R", value_parser = parse_target, allow_negative_numbers = true)]
+    coverage_radius: Option<Target>,
+    /// No Voronoi cell's area farther from the mean than this part of it; or off. Without a preset the lengths that are not given are off, and
+    /// this is 0.0386
+    #[arg(long, value_name = "T", value_parser = parse_target, allow_negative_numbers = true)]
+    capacity_tolerance: Option<Target>,
+    /// The part of each move that is made; 1.2 reaches tougher targets [default: the preset's, 1; summed: 0.5]
+    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    relaxation: Option<f64>,
+    /// in-turn: points move at each visit; summed: at the end of a pass, the paper's parallel variant [default: in-turn]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    schedule: Option<ScheduleArg>,
+}
+
+/// A number, or none.
+#[derive(Clone, Copy)]
+pub struct Target(Option<f64>);
 
 #[derive(Args)]
 pub struct RunArgs {
@@ -170,6 +215,8 @@ pub struct RunArgs {
 pub enum GenerateMethod {
     /// Procrustes analysis (Papazov and Hege)
     Procrustes,
+    /// Push-pull optimization (Ahmed, Guo, Yan et al.)
+    PushPull,
     /// Independent uniform points
     White,
     /// One point in each cell of a grid
@@ -182,6 +229,8 @@ pub enum GenerateMethod {
 pub enum OptimizeMethod {
     /// Procrustes analysis (Papazov and Hege)
     Procrustes,
+    /// Push-pull optimization (Ahmed, Guo, Yan et al.)
+    PushPull,
     /// Even out long density waves, and nothing else
     Warp,
 }
@@ -206,11 +255,35 @@ pub enum SpaceKind {
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum ModeArg {
+enum ModeArg {
     /// Plain steps
     Paper,
     /// Momentum
     Fast,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum ScheduleArg {
+    /// Points move at each visit
+    InTurn,
+    /// Points move at the end of a pass
+    Summed,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum PresetArg {
+    /// Distance 0.75, coverage 0.75, tolerance 0.1
+    Fast,
+    /// 0.85, 0.67, 0.0386
+    Balanced,
+    /// 0.90, 0.65, 0.0386: the triangles' angles are 43.8 to 92.5 degrees
+    Tough,
+    /// 0.80, 0.63, 0.0386: row 1 of the paper's Table 1
+    Paper1,
+    /// 0.90, 0.65, 0.0386: row 2
+    Paper2,
+    /// 0.92, 0.62, 0.1, relaxation 1.2: row 3; no triangle is obtuse
+    Paper3,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -245,14 +318,111 @@ impl SpaceArgs {
     }
 }
 
-impl ProcrustesArgs {
-    pub fn params(&self) -> ProcrustesParams {
-        let mode = match self.mode {
-            ModeArg::Paper => Mode::Paper,
-            ModeArg::Fast => Mode::Fast,
-        };
-        ProcrustesParams { mode, side: self.side, tolerance: self.tolerance, max_iterations: self.iterations }
+impl OptimizerArgs {
+    pub fn procrustes(&self) -> anyhow::Result<Optimizer> {
+        refuse(self.push_pull.given(), "push-pull")?;
+        let ProcrustesArgs { mode, side, tolerance } = self.procrustes;
+        let mut params = ProcrustesParams::default();
+        set(&mut params.mode, mode.map(Into::into));
+        set(&mut params.side, side);
+        set(&mut params.tolerance, tolerance);
+        set(&mut params.max_iterations, self.iterations);
+        params.validate()?;
+        Ok(Optimizer::Procrustes(params))
     }
+
+    pub fn push_pull(&self, seed: u64) -> anyhow::Result<Optimizer> {
+        refuse(self.procrustes.given(), "procrustes")?;
+        let PushPullArgs { preset, min_distance, coverage_radius, capacity_tolerance, relaxation, schedule } = self.push_pull;
+        let mut params = PushPullParams::preset(preset.map(Into::into).unwrap_or_default());
+        let is_picked = preset.is_none() && (min_distance.is_some() || coverage_radius.is_some() || capacity_tolerance.is_some());
+        if is_picked {
+            (params.min_distance, params.coverage_radius) = (None, None);
+        }
+        set(&mut params.min_distance, min_distance.map(|target| target.0));
+        set(&mut params.coverage_radius, coverage_radius.map(|target| target.0));
+        set(&mut params.capacity_tolerance, capacity_tolerance.map(|target| target.0));
+        if schedule == Some(ScheduleArg::Summed) {
+            (params.schedule, params.relaxation) = (Schedule::Summed, 0.5);
+        }
+        set(&mut params.relaxation, relaxation);
+        params.max_passes = self.iterations;
+        params.seed = seed;
+        params.validate()?;
+        Ok(Optimizer::PushPull(params))
+    }
+
+    /// For a method that is no optimiser.
+    pub fn none(&self) -> anyhow::Result<()> {
+        refuse(self.procrustes.given(), "procrustes")?;
+        refuse(self.push_pull.given(), "push-pull")?;
+        refuse(self.iterations.map(|_| "iterations"), "procrustes or push-pull")
+    }
+}
+
+impl ProcrustesArgs {
+    /// The first flag that was given.
+    fn given(&self) -> Option<&'static str> {
+        let flags = [("mode", self.mode.is_some()), ("side", self.side.is_some()), ("tolerance", self.tolerance.is_some())];
+        flags.into_iter().find(|&(_, is_given)| is_given).map(|(name, _)| name)
+    }
+}
+
+impl PushPullArgs {
+    /// The first flag that was given.
+    fn given(&self) -> Option<&'static str> {
+        let flags = [
+            ("preset", self.preset.is_some()),
+            ("min-distance", self.min_distance.is_some()),
+            ("coverage-radius", self.coverage_radius.is_some()),
+            ("capacity-tolerance", self.capacity_tolerance.is_some()),
+            ("relaxation", self.relaxation.is_some()),
+            ("schedule", self.schedule.is_some()),
+        ];
+        flags.into_iter().find(|&(_, is_given)| is_given).map(|(name, _)| name)
+    }
+}
+
+fn refuse(flag: Option<&str>, method: &str) -> anyhow::Result<()> {
+    match flag {
+        Some(flag) => bail!("--{flag} is for --method {method}"),
+        None => Ok(()),
+    }
+}
+
+fn set<T>(field: &mut T, value: Option<T>) {
+    if let Some(value) = value {
+        *field = value;
+    }
+}
+
+impl From<ModeArg> for Mode {
+    fn from(mode: ModeArg) -> Self {
+        match mode {
+            ModeArg::Paper => Self::Paper,
+            ModeArg::Fast => Self::Fast,
+        }
+    }
+}
+
+impl From<PresetArg> for PushPullPreset {
+    fn from(preset: PresetArg) -> Self {
+        match preset {
+            PresetArg::Fast => Self::Fast,
+            PresetArg::Balanced => Self::Balanced,
+            PresetArg::Tough => Self::Tough,
+            PresetArg::Paper1 => Self::Paper1,
+            PresetArg::Paper2 => Self::Paper2,
+            PresetArg::Paper3 => Self::Paper3,
+        }
+    }
+}
+
+fn parse_target(text: &str) -> Result<Target, String> {
+    if text == "off" {
+        return Ok(Target(None));
+    }
+    text.parse().map(|number| Target(Some(number))).map_err(|_| "it must be a number, or off".to_owned())
 }
 
 fn parse_count(text: &str) -> Result<usize, String> {

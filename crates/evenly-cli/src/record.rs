@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use evenly::{Measures, ProcrustesParams, Report, Space};
+use evenly::{Measures, Report, Space};
 use serde::Serialize;
+
+use crate::optimizer::Optimizer;
 
 #[derive(Serialize)]
 pub struct Record {
@@ -14,7 +16,7 @@ pub struct Record {
     pub space: Space,
     pub n_points: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub parameters: Option<ProcrustesParams>,
+    pub parameters: Option<Optimizer>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub run: Option<Report>,
     /// Wall time of each phase.

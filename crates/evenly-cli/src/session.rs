@@ -5,11 +5,12 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, ProcrustesParams, Progress, Report, RunContext, measure, procrustes, warp};
+use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, measure};
 use evenly_io::{Draw, Target, write_points};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::RunArgs;
+use crate::optimizer::Optimizer;
 use crate::record::{self, Record};
 
 /// Interrupted; the state reached is written.
@@ -27,7 +28,7 @@ pub struct Session<'a> {
     cancel: CancelToken,
     seconds: BTreeMap<&'static str, f64>,
     notes: Vec<String>,
-    parameters: Option<ProcrustesParams>,
+    optimizer: Option<Optimizer>,
 }
 
 /// Threads for rayon: as many as asked for, or as there are cores.
@@ -65,7 +66,7 @@ impl<'a> Session<'a> {
             cancel,
             seconds: BTreeMap::new(),
             notes: Vec::new(),
-            parameters: None,
+            optimizer: None,
         })
     }
 
@@ -86,11 +87,12 @@ impl<'a> Session<'a> {
     }
 
     /// Optimises points, and finishes.
-    pub fn procrustes(mut self, mut points: PointSet, params: &ProcrustesParams, is_warped: bool) -> anyhow::Result<ExitCode> {
-        self.parameters = Some(*params);
+    pub fn optimize(mut self, mut points: PointSet, optimizer: Optimizer, is_warped: bool) -> anyhow::Result<ExitCode> {
+        self.optimizer = Some(optimizer);
+        self.seed = self.seed.or(optimizer.seed());
         let is_warped = is_warped && points.n_points() >= 3;
         if is_warped {
-            self.time("warp", || warp(&mut points));
+            self.time("warp", || optimizer.warp(&mut points));
         }
         self.catch_interrupt()?;
         let bar = self.bar();
@@ -101,7 +103,7 @@ impl<'a> Session<'a> {
                 clock.enter(progress.phase);
                 show(&bar, progress);
             };
-            procrustes(&mut points, params, &mut RunContext::default().on_progress(on_progress).with_cancel(cancel))
+            optimizer.run(&mut points, &mut RunContext::default().on_progress(on_progress).with_cancel(cancel))
         });
         bar.finish_and_clear();
         let report = done?;
@@ -116,7 +118,7 @@ impl<'a> Session<'a> {
         if report.was_collinear {
             self.note("all points lay on one line and were spread first".into());
         }
-        self.finish(points, "procrustes", Some(report))
+        self.finish(points, optimizer.name(), Some(report))
     }
 
     /// From here on Ctrl-C ends the run after the iteration at hand; before, there is nothing to keep.
@@ -137,14 +139,22 @@ impl<'a> Session<'a> {
 
     /// Measures the points, writes them and the record, and says how it went.
     pub fn finish(mut self, points: PointSet, method: &str, run: Option<Report>) -> anyhow::Result<ExitCode> {
-        let is_wanted = !self.args.quiet || self.args.json || self.report.is_some();
+        let has_targets = matches!(self.optimizer, Some(Optimizer::PushPull(_)));
+        let is_wanted = !self.args.quiet || self.args.json || self.report.is_some() || has_targets;
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
+        let misses = match (&self.optimizer, &measures) {
+            (Some(optimizer), Some(measures)) => optimizer.misses(measures),
+            _ => Vec::new(),
+        };
         let recipe = record::recipe(self.seed);
         let start = Instant::now();
         self.pool.install(|| write_points(&points, &self.draw, &recipe, &self.output))?;
         self.seconds.insert("write", start.elapsed().as_secs_f64());
         if !self.args.quiet {
             self.summarize(&points, run.as_ref(), measures.as_ref());
+        }
+        for miss in &misses {
+            self.note(format!("not reached: {miss}"));
         }
         let outcome = run.as_ref().map(|run| run.outcome);
         let record = Record {
@@ -154,7 +164,7 @@ impl<'a> Session<'a> {
             seed: self.seed,
             space: *points.space(),
             n_points: points.n_points(),
-            parameters: self.parameters,
+            parameters: self.optimizer,
             run,
             seconds: self.seconds,
             measures,
@@ -170,16 +180,18 @@ impl<'a> Session<'a> {
         Ok(match outcome {
             _ if self.cancel.is_cancelled() => ExitCode::from(INTERRUPTED),
             Some(Outcome::IterationLimit) => ExitCode::from(NOT_REACHED),
+            _ if !misses.is_empty() => ExitCode::from(NOT_REACHED),
             _ => ExitCode::SUCCESS,
         })
     }
 
     fn summarize(&self, points: &PointSet, run: Option<&Report>, measures: Option<&Measures>) {
         let seconds: f64 = self.seconds.values().sum();
+        let steps = if run.is_some_and(|run| run.visits > 0) { "passes" } else { "iterations" };
         let how = match run.map(|run| (run.outcome, run.iterations)) {
-            Some((Outcome::Converged, n)) => format!(", converged in {n} iterations"),
-            Some((Outcome::IterationLimit, n)) => format!(", not converged in {n} iterations"),
-            Some((Outcome::Cancelled, n)) => format!(", interrupted after {n} iterations"),
+            Some((Outcome::Converged, n)) => format!(", converged in {n} {steps}"),
+            Some((Outcome::IterationLimit, n)) => format!(", not converged in {n} {steps}"),
+            Some((Outcome::Cancelled, n)) => format!(", interrupted after {n} {steps}"),
             Some((Outcome::NothingToDo, _)) | None => String::new(),
         };
         let seed = self.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
@@ -200,10 +212,7 @@ impl<'a> Session<'a> {
             let phases: Vec<String> = self.seconds.iter().map(|(phase, s)| format!("{phase} {s:.3} s")).collect();
             eprintln!("{}", phases.join(", "));
             if let Some(run) = run {
-                eprintln!(
-                    "{} flips, {} moves undone, {} rises of the energy, {} inverted triangles",
-                    run.flips, run.moves_undone, run.energy_rises, run.inverted_triangles
-                );
+                eprintln!("{}", work(run));
             }
         }
     }
@@ -221,11 +230,24 @@ impl<'a> Session<'a> {
     }
 }
 
+/// What a run did.
+fn work(run: &Report) -> String {
+    if run.visits > 0 {
+        let visits = run.visits as f64 / run.n_points as f64;
+        return format!("{visits:.1} visits a point, {} flips, {} triangulations", run.flips, run.triangulations);
+    }
+    format!(
+        "{} flips, {} moves undone, {} rises of the energy, {} inverted triangles",
+        run.flips, run.moves_undone, run.energy_rises, run.inverted_triangles
+    )
+}
+
 fn show(bar: &ProgressBar, progress: Progress) {
     let energy = progress.energy.map_or_else(String::new, |energy| format!(", energy {energy:.5}"));
-    bar.set_message(match progress.phase {
-        Phase::Separate | Phase::Triangulate => "triangulating".to_owned(),
-        Phase::Optimize => format!("iteration {}{energy}", progress.iteration),
+    bar.set_message(match (progress.phase, progress.stable_share) {
+        (Phase::Separate | Phase::Triangulate, _) => "triangulating".to_owned(),
+        (Phase::Optimize, Some(share)) => format!("pass {}, {:.2} % at rest", progress.iteration, 100.0 * share),
+        (Phase::Optimize, None) => format!("iteration {}{energy}", progress.iteration),
     });
     bar.set_position((1000.0 * progress.fraction) as u64);
 }

@@ -22,11 +22,14 @@ mod points;
 mod predicates;
 mod run;
 mod space;
+mod star;
+mod sweep;
 mod triangulation;
 
 pub use error::Error;
 pub use measure::{BorderMeasures, Measures, Tessellation, measure, tessellate};
-pub use optimize::{Mode, ProcrustesParams, procrustes};
-pub use points::{MAX_POINTS, PointSet, hexagonal, jittered, warp, white};
+pub use optimize::{Mode, ProcrustesParams, PushPullParams, PushPullPreset, UnmetTarget, procrustes, push_pull};
+pub use points::{MAX_POINTS, PointSet, hexagonal, jittered, warp, warp_isotropic, white};
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Space, Torus};
+pub use sweep::Schedule;

@@ -22,11 +22,13 @@ pub enum Phase {
 pub struct Progress {
     /// What is going on.
     pub phase: Phase,
-    /// Iterations done so far.
+    /// Iterations done so far; of a method that sweeps, passes.
     pub iteration: usize,
-    /// The energy after the last iteration; `None` before the first.
+    /// The energy after the last iteration; `None` before the first, and of methods without one.
     pub energy: Option<f64>,
-    /// How far the run has come, 0 to 1, estimated from the energy's decay; never falls.
+    /// The share of points at which the last pass found nothing to do; `None` before the first, and of methods that do not sweep.
+    pub stable_share: Option<f64>,
+    /// How far the run has come, 0 to 1, estimated; never falls.
     pub fraction: f64,
 }
 
@@ -77,7 +79,7 @@ impl<'a> RunContext<'a> {
     }
 
     pub(crate) fn enter(&mut self, phase: Phase) {
-        self.report(Progress { phase, iteration: 0, energy: None, fraction: 0.0 });
+        self.report(Progress { phase, iteration: 0, energy: None, stable_share: None, fraction: 0.0 });
     }
 
     pub(crate) fn is_cancelled(&self) -> bool {
@@ -91,9 +93,9 @@ impl<'a> RunContext<'a> {
 pub enum Outcome {
     /// The stop criterion was met.
     Converged,
-    /// `max_iterations` came first; the state reached is kept.
+    /// The limit of iterations or passes came first; the best state reached is kept.
     IterationLimit,
-    /// The run was cancelled; the state reached is kept.
+    /// The run was cancelled; the best state reached is kept.
     Cancelled,
     /// Fewer than three points: nothing to optimise.
     NothingToDo,
@@ -108,9 +110,13 @@ pub struct Report {
     pub n_points: usize,
     /// How the run ended.
     pub outcome: Outcome,
-    /// Iterations done.
+    /// Iterations done; of a method that sweeps, passes.
     pub iterations: usize,
-    /// The energy before the first iteration and after each, as a fraction of the domain's area.
+    /// Of a method that sweeps: how often a point was visited.
+    pub visits: usize,
+    /// Of a method that sweeps: for each pass the share of points at which it found nothing to do.
+    pub stable_share: Vec<f64>,
+    /// The energy before the first iteration and after each, as a fraction of the domain's area; of methods that have one.
     pub energy: Vec<f64>,
     /// How often the energy rose from one iteration to the next, by more than rounding; steps in which a rectangle's triangulation is built anew do not count.
     pub energy_rises: usize,
@@ -137,6 +143,8 @@ impl Report {
             n_points,
             outcome: Outcome::NothingToDo,
             iterations: 0,
+            visits: 0,
+            stable_share: Vec::new(),
             energy: Vec::new(),
             energy_rises: 0,
             flips: 0,

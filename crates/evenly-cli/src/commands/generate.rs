@@ -9,22 +9,26 @@ use crate::session::Session;
 
 pub fn run(args: &Generate) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
-    args.procrustes.params().validate()?;
-    let mut session = Session::new(&args.run, Some(args.seed))?;
-    let start = match args.method {
-        GenerateMethod::Procrustes => args.start,
-        GenerateMethod::White => Start::White,
-        GenerateMethod::Jittered => Start::Jittered,
-        GenerateMethod::Hexagonal => Start::Hexagonal,
+    let (optimizer, start) = match args.method {
+        GenerateMethod::Procrustes => (Some(args.optimizer.procrustes()?), args.start),
+        GenerateMethod::PushPull => (Some(args.optimizer.push_pull(args.seed)?), args.start),
+        GenerateMethod::White => (None, Start::White),
+        GenerateMethod::Jittered => (None, Start::Jittered),
+        GenerateMethod::Hexagonal => (None, Start::Hexagonal),
     };
-    let points = session.time("start", || begin(start, space, args.n_points, args.seed))?;
-    if args.method != GenerateMethod::Procrustes {
-        let name = clap::ValueEnum::to_possible_value(&args.method).map_or_else(String::new, |value| value.get_name().to_owned());
-        return session.finish(points, &name, None);
+    if optimizer.is_none() {
+        args.optimizer.none()?;
     }
-    // Only white noise has long density waves.
-    let is_warped = start == Start::White && !args.procrustes.no_warp;
-    session.procrustes(points, &args.procrustes.params(), is_warped)
+    let mut session = Session::new(&args.run, Some(args.seed))?;
+    let points = session.time("start", || begin(start, space, args.n_points, args.seed))?;
+    match optimizer {
+        // Only white noise has long density waves.
+        Some(optimizer) => session.optimize(points, optimizer, start == Start::White && !args.optimizer.no_warp),
+        None => {
+            let name = clap::ValueEnum::to_possible_value(&args.method).map_or_else(String::new, |value| value.get_name().to_owned());
+            session.finish(points, &name, None)
+        }
+    }
 }
 
 fn begin(start: Start, space: Space, n_points: usize, seed: u64) -> Result<PointSet, evenly::Error> {

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::error::Error;
 use crate::points::{PointSet, hilbert_order};
-use crate::triangulation::{Triangulation, delaunay_sorted};
+use crate::triangulation::{Triangulation, delaunay};
 
 /// The triangulation of the distinct points among some.
 pub(super) struct Distinct {
@@ -29,7 +29,7 @@ impl Distinct {
         }
         let coincident_points = positions.len() - sorted.len();
         let (sorted, order) = sorted.into_iter().unzip();
-        let triangulation = delaunay_sorted(&domain, sorted, order)?;
+        let triangulation = delaunay(&domain, sorted, order)?;
         Ok(Self { triangulation, coincident_points, is_shared })
     }
 }

@@ -95,10 +95,10 @@ struct Sums {
 pub fn measure(points: &PointSet) -> Result<Measures, Error> {
     let Distinct { triangulation, coincident_points, is_shared } = Distinct::triangulate(points)?;
     let n_distinct = triangulation.n_base();
-    let domain_area = triangulation.domain.area() / f64::from(triangulation.copies[0] * triangulation.copies[1]);
-    let mean_capacity = domain_area / n_distinct as f64;
+    let domain = triangulation.domain.uncovered(triangulation.copies);
+    let mean_capacity = domain.area() / n_distinct as f64;
     let n_points = points.n_points();
-    let spacing = (2.0 * domain_area / (3f64.sqrt() * n_points as f64)).sqrt();
+    let spacing = domain.hex_spacing(n_points);
 
     let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
     let parts: Vec<Sums> = (0..n_distinct)
@@ -144,7 +144,7 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         border: (!triangulation.domain.is_periodic).then(|| BorderMeasures {
             border_angle_rms_deg: triangles.border.angle_rms_deg(),
             interior_angle_rms_deg: triangles.interior.angle_rms_deg(),
-            uncovered_fraction: (1.0 - triangles.all.area / domain_area).max(0.0),
+            uncovered_fraction: (1.0 - triangles.all.area / domain.area()).max(0.0),
             isolated_points: triangles.isolated_points,
         }),
     })

@@ -22,8 +22,9 @@ mod model;
 use serde::Serialize;
 
 use self::mesh::Mesh;
+use super::prepare::{Prepared, prepare};
 use crate::error::Error;
-use crate::points::{PointSet, separate};
+use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 use crate::triangulation::delaunay;
 
@@ -111,25 +112,15 @@ const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 /// ```
 pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
-    points.space().require_resolution(points.n_points().max(1))?;
     let mut report = Report::new("procrustes", points.n_points());
     if !GOOD_SIDES.contains(&params.side) {
         report.notes.push(format!("side {} is outside [1, 1.625], where triangles keep their shape", params.side));
     }
-    if points.n_points() < 3 {
-        report.notes.push("fewer than three points: nothing to optimise, they come back as they are".into());
-        return Ok(report);
-    }
 
     // Preprocessing: distinct points, and their Delaunay triangulation.
-    let (domain, mut positions) = points.normalized();
-    let spacing = (2.0 * domain.area() / (3f64.sqrt() * positions.len() as f64)).sqrt();
-    run.enter(Phase::Separate);
-    let separated = separate(&domain, &mut positions, spacing);
-    report.coincident_points = separated.coincident_points;
-    report.was_collinear = separated.was_collinear;
+    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, &mut report, run)? else { return Ok(report) };
     run.enter(Phase::Triangulate);
-    let mut triangulation = delaunay(&domain, &positions, separated.order)?;
+    let mut triangulation = delaunay(&domain, positions, order)?;
     report.triangulations = 1;
     let has_border = !domain.is_periodic && points.n_points() >= border::FEWEST;
     if !domain.is_periodic && border::is_narrow(domain.size, spacing) {
@@ -178,7 +169,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         report.energy_rises += usize::from(energy > before + ROUNDING * (1.0 + before) && !is_settling);
         decay.step(before - energy);
         let fraction = decay.fraction.max(report.iterations as f64 / params.max_iterations as f64);
-        run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: Some(energy), fraction });
+        run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: Some(energy), stable_share: None, fraction });
         if decay.has_settled() && (!has_border || REBUILDS.iter().all(|&at| at < report.iterations)) {
             report.outcome = Outcome::Converged;
             break;

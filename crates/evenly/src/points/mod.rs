@@ -15,5 +15,5 @@ pub(crate) use order::hilbert_order;
 pub use point_set::{MAX_POINTS, PointSet};
 pub(crate) use random::Random;
 pub(crate) use separate::separate;
-pub use warp::warp;
+pub use warp::{warp, warp_isotropic};
 pub use white::white;

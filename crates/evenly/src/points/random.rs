@@ -22,6 +22,20 @@ impl Random {
     pub fn signed(&mut self) -> f64 {
         2.0 * self.unit() - 1.0
     }
+
+    /// A seed for one of many things that depend on `seed`.
+    pub fn derived(seed: u64, index: usize) -> u64 {
+        Self::new(seed, 1 << 32 | index as u64).0.next_u64()
+    }
+
+    /// Puts the items into a random order, each equally likely.
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for last in (1..items.len()).rev() {
+            // 32 random bits, scaled: for so few items as good as uniform.
+            let other = ((self.0.next_u64() >> 32) * (last as u64 + 1)) >> 32;
+            items.swap(last, other as usize);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -77,6 +77,11 @@ impl Domain {
         self.size.x * self.size.y
     }
 
+    /// The spacing of the hexagonal lattice with `n_points` points.
+    pub fn hex_spacing(&self, n_points: usize) -> f64 {
+        (2.0 * self.area() / (3f64.sqrt() * n_points as f64)).sqrt()
+    }
+
     /// From input units.
     pub fn normalize(&self, p: [f64; 2]) -> DVec2 {
         let mut q = (DVec2::from(p) - self.origin) * self.scale;

@@ -8,21 +8,15 @@ use super::{plane, torus};
 use crate::error::Error;
 use crate::space::Domain;
 
-/// Triangulates distinct points, given their Hilbert order.
-pub(crate) fn delaunay(domain: &Domain, points: &[DVec2], order: Vec<u32>) -> Result<Triangulation, Error> {
-    let sorted = order.iter().map(|&i| points[i as usize]).collect();
-    delaunay_sorted(domain, sorted, order)
-}
-
-/// As [`delaunay`], of points that stand in that order already.
-pub(crate) fn delaunay_sorted(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> Result<Triangulation, Error> {
+/// Triangulates distinct points that stand in Hilbert order; `order` holds the caller's index of each.
+pub(crate) fn delaunay(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> Result<Triangulation, Error> {
     let triangulation = if domain.is_periodic { torus::delaunay(domain, &points, order)? } else { hull(domain, points, order)? };
     debug_assert_eq!(triangulation.check_delaunay(), Ok(()));
     Ok(triangulation)
 }
 
 /// Triangulates the convex hull: quickly, if that can be proved to be a triangulation, and then by Lawson's flips; otherwise exactly.
-fn hull(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> Result<Triangulation, Error> {
+pub(super) fn hull(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> Result<Triangulation, Error> {
     let half_edges = plane::nearly_delaunay(plane::shaken(domain, &points).into_iter()).filtered(|t| Some(smallest(t)));
     let mut triangulation = Triangulation { half_edges, positions: points, domain: *domain, copies: [1, 1], order };
     if triangulation.half_edges.n_triangles() > 0 && triangulation.check().is_ok() {

@@ -3,15 +3,24 @@
 mod check;
 mod chunks;
 mod delaunay;
+mod frame;
 mod half_edges;
+mod live;
 mod mesh;
 mod patch;
 mod plane;
+mod relocate;
+mod shared;
+mod stars;
 mod torus;
+mod walls;
 
 pub(crate) use chunks::Chunks;
-pub(crate) use delaunay::{delaunay, delaunay_sorted};
+pub(crate) use delaunay::delaunay;
 pub(crate) use half_edges::{BORDER, HalfEdges, next, prev};
+pub(crate) use live::{LiveMesh, Outside};
 pub(crate) use mesh::{Triangulation, circumcentre};
 pub(crate) use patch::Patch;
+pub(crate) use shared::Territory;
+pub(crate) use stars::{MIRROR, StarBuffer};
 pub(crate) use torus::cover;

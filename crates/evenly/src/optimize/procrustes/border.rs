@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use crate::error::Error;
-use crate::triangulation::{BORDER, HalfEdges, Triangulation, delaunay_sorted, next, prev};
+use crate::triangulation::{BORDER, HalfEdges, Triangulation, delaunay, next, prev};
 
 /// Points nearer to a wall than this, in spacings, are either on it or moved away from it.
 const CLEARANCE: f64 = 0.6;
@@ -34,7 +34,7 @@ pub(super) fn settle(triangulation: Triangulation, spacing: f64) -> Result<Trian
     for (p, _) in positions.iter_mut().zip(&is_chosen).filter(|(_, is_chosen)| !**is_chosen) {
         *p = domain.land(cleared(*p, size, spacing));
     }
-    delaunay_sorted(&domain, positions, order)
+    delaunay(&domain, positions, order)
 }
 
 /// Makes the triangulation Delaunay again; points that come too near to the border join it, those that crowd on it leave it.
@@ -49,7 +49,7 @@ pub(super) fn resettle(mut triangulation: Triangulation, spacing: f64) -> Result
     for (vertex, place) in moves {
         positions[vertex as usize] = domain.land(place);
     }
-    delaunay_sorted(&domain, positions, order)
+    delaunay(&domain, positions, order)
 }
 
 /// The corners, and places evenly spaced between them, counter-clockwise; as many as suit `n_points`.

@@ -1,0 +1,57 @@
+//! The optimisers behind one face: which one runs, with which parameters, and what it was asked to reach.
+
+use evenly::{
+    Error, Measures, PointSet, ProcrustesParams, PushPullParams, Report, RunContext, procrustes, push_pull, warp, warp_isotropic,
+};
+use serde::Serialize;
+
+#[derive(Clone, Copy, Serialize)]
+#[serde(untagged)]
+pub enum Optimizer {
+    Procrustes(ProcrustesParams),
+    PushPull(PushPullParams),
+}
+
+impl Optimizer {
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Procrustes(_) => "procrustes",
+            Self::PushPull(_) => "push-pull",
+        }
+    }
+
+    /// What its own chance depends on.
+    pub fn seed(&self) -> Option<u64> {
+        match self {
+            Self::Procrustes(_) => None,
+            Self::PushPull(params) => Some(params.seed),
+        }
+    }
+
+    /// Evens out a start as suits the method.
+    pub fn warp(&self, points: &mut PointSet) {
+        match self {
+            Self::Procrustes(_) => warp(points),
+            Self::PushPull(_) => warp_isotropic(points),
+        }
+    }
+
+    pub fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        match self {
+            Self::Procrustes(params) => procrustes(points, params, run),
+            Self::PushPull(params) => push_pull(points, params, run),
+        }
+    }
+
+    /// The targets that points with these measures miss, in words.
+    pub fn misses(&self, measures: &Measures) -> Vec<String> {
+        let unmet = match self {
+            Self::Procrustes(_) => Vec::new(),
+            Self::PushPull(params) => params.unmet(measures),
+        };
+        unmet
+            .iter()
+            .map(|target| format!("{} is {:.6}, wanted {}", target.name.replace('_', " "), target.measured, target.wanted))
+            .collect()
+    }
+}

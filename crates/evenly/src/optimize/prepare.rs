@@ -1,0 +1,51 @@
+//! What every optimiser begins with: points that a triangulation can tell apart, in the order in which they lie.
+
+use glam::DVec2;
+
+use crate::error::Error;
+use crate::points::{PointSet, separate};
+use crate::run::{Phase, Report, RunContext};
+use crate::space::Domain;
+
+/// Distinct points in normalised coordinates.
+pub(super) struct Prepared {
+    pub domain: Domain,
+    /// The hexagonal spacing.
+    pub spacing: f64,
+    /// Along the Hilbert curve.
+    pub positions: Vec<DVec2>,
+    /// The caller's index of each.
+    pub order: Vec<u32>,
+}
+
+/// Separates what coincides or lies on one line, and says so in the report; `None` for fewer than three points, which stay.
+///
+/// # Errors
+/// [`Error::TooFine`] where f64 cannot tell the points apart.
+pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunContext) -> Result<Option<Prepared>, Error> {
+    points.space().require_resolution(points.n_points().max(1))?;
+    if points.n_points() < 3 {
+        report.notes.push("fewer than three points: nothing to optimise, they come back as they are".into());
+        return Ok(None);
+    }
+    run.enter(Phase::Separate);
+    let (domain, mut positions) = points.normalized();
+    let spacing = domain.hex_spacing(positions.len());
+    let separated = separate(&domain, &mut positions, spacing);
+    report.coincident_points = separated.coincident_points;
+    report.was_collinear = separated.was_collinear;
+    let order = separated.order;
+    let positions = order.iter().map(|&index| positions[index as usize]).collect();
+    Ok(Some(Prepared { domain, spacing, positions, order }))
+}
+
+/// Moves apart what rounding to input units has brought together: points much nearer than the spacing.
+pub(super) fn keep_distinct(points: &mut PointSet) {
+    let (domain, mut positions) = points.normalized();
+    let spacing = domain.hex_spacing(positions.len());
+    let separated = separate(&domain, &mut positions, spacing);
+    if separated.coincident_points > 0 {
+        let all: Vec<u32> = (0..positions.len() as u32).collect();
+        points.place(&domain, &all, &positions);
+    }
+}

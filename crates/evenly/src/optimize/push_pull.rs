@@ -1,0 +1,252 @@
+//! Push-pull optimization: each point moves its neighbours until none is nearer than a wanted distance, no gap is larger than a wanted radius,
+//! and all Voronoi cells have about the same area.
+//!
+//! Ahmed, Guo, Yan, Franceschi, Zhang and Deussen, "A Simple Push-Pull Algorithm for Blue-Noise Sampling", IEEE Transactions on Visualization
+//! and Computer Graphics 23(12), 2017, doi 10.1109/TVCG.2016.2641963.
+//!
+//! What differs from the paper, and why:
+//! - The three steps of a visit work one after the other on a copy of the star, and each neighbour then moves once: as good as
+//!   reading the star anew in between, and faster. Summing three shifts of one reading diverges on tough targets.
+//! - Points are visited in an order that is new in each pass: a fixed order runs into cycles that never end.
+//! - Obtuse triangles are not left out. It makes no difference in the plane, and on curved surfaces they count.
+//! - The Delaunay property is restored where a star is read, not after each move; before a run counts as converged, everywhere.
+//! - In a rectangle a wall acts like the points' mirror images: cells end there, and the coverage radius counts walls and corners.
+//!
+//! Cost: O(n) in all, about 20 visits a point for {0.85, 0.67}, 60 for {0.90, 0.65} and 120 for {0.90, 0.63}. It does not promise that
+//! any targets can be reached: what is known to be, is in the documentation of [`PushPullParams`].
+
+mod frontier;
+mod rule;
+
+use serde::Serialize;
+
+use self::rule::PushPull;
+use super::prepare::{Prepared, keep_distinct, prepare};
+use crate::error::Error;
+use crate::measure::Measures;
+use crate::points::PointSet;
+use crate::run::{Outcome, Phase, Report, RunContext};
+use crate::sweep::{Ending, Plan, Schedule, Sweep};
+use crate::triangulation::LiveMesh;
+
+/// What [`push_pull`] can be told: the targets, each of which may be left out, and how to go for them.
+///
+/// Lengths are relative to the hexagonal spacing. On a torus of a thousand or ten thousand points these are known to be reached:
+///
+/// | coverage radius | min distance, tolerance 0.0386 | min distance, tolerance 0.1 |
+/// |---|---|---|
+/// | 0.61 | - | 0.90 |
+/// | 0.62 | 0.91 | 0.92 |
+/// | 0.63 | 0.92 | 0.92 |
+/// | 0.64 | 0.92 | 0.93 |
+/// | 0.65 | 0.93 | 0.94 |
+/// | 0.67 | 0.94 | 0.95 |
+/// | 0.75 | 0.94 | 0.96 |
+///
+/// Where `coverage_radius` is below 0.707 of `min_distance`, no triangle is obtuse.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PushPullParams {
+    /// No two points shall be nearer than this (the paper's r_f, "conflict radius"); in (0, 1]. More makes points more regular.
+    pub min_distance: Option<f64>,
+    /// No place shall be farther from the nearest point than this (r_c); 0.577 at least, that of the hexagonal lattice.
+    pub coverage_radius: Option<f64>,
+    /// The area of each Voronoi cell shall differ from the mean by at most this part of it; positive. Without it, a start's long density
+    /// waves stay. Less than 0.0386 takes many more passes.
+    pub capacity_tolerance: Option<f64>,
+    /// The part of each move that is made; in (0, 2). More than 1 reaches tougher targets, and makes points more regular; where it
+    /// diverges the run goes on with 1. With [`Schedule::Summed`] 0.5 converges and 1 does not.
+    pub relaxation: f64,
+    /// Whether points move at each visit, or at the end of a pass. The second is the paper's parallel variant: it takes several times the
+    /// passes, fails at tougher targets, and makes points less regular.
+    pub schedule: Schedule,
+    /// Stops after this many passes in any case; `None` for a limit that grows with the number of points, 2000 at least.
+    pub max_passes: Option<usize>,
+    /// The order of visits depends on it.
+    pub seed: u64,
+}
+
+/// Targets to choose from, with the tolerance and relaxation that they need.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PushPullPreset {
+    /// {0.75, 0.75}, tolerance 0.1: quick, and irregular.
+    Fast,
+    /// {0.85, 0.67}.
+    #[default]
+    Balanced,
+    /// {0.90, 0.65}.
+    Tough,
+    /// {0.80, 0.63}: row 1 of the paper's Table 1, low aliasing.
+    Paper1,
+    /// {0.90, 0.65}: row 2, between the two.
+    Paper2,
+    /// {0.92, 0.62}: row 3, low noise. The paper does not tell its tolerance; 0.1 with a relaxation of 1.2 converges.
+    Paper3,
+}
+
+impl Default for PushPullParams {
+    fn default() -> Self {
+        Self::preset(PushPullPreset::default())
+    }
+}
+
+/// A target that points do not reach.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct UnmetTarget {
+    /// The target's name, as in [`PushPullParams`].
+    pub name: &'static str,
+    /// What was wanted.
+    pub wanted: f64,
+    /// What was measured.
+    pub measured: f64,
+}
+
+impl PushPullParams {
+    /// The parameters of a preset.
+    pub fn preset(preset: PushPullPreset) -> Self {
+        let (min_distance, coverage_radius, tolerance, relaxation) = match preset {
+            PushPullPreset::Fast => (0.75, 0.75, 0.1, 1.0),
+            PushPullPreset::Balanced => (0.85, 0.67, 0.0386, 1.0),
+            PushPullPreset::Tough | PushPullPreset::Paper2 => (0.90, 0.65, 0.0386, 1.0),
+            PushPullPreset::Paper1 => (0.80, 0.63, 0.0386, 1.0),
+            PushPullPreset::Paper3 => (0.92, 0.62, 0.1, 1.2),
+        };
+        Self {
+            min_distance: Some(min_distance),
+            coverage_radius: Some(coverage_radius),
+            capacity_tolerance: Some(tolerance),
+            relaxation,
+            schedule: Schedule::InTurn,
+            max_passes: None,
+            seed: 0,
+        }
+    }
+
+    /// Checks the parameters, as [`push_pull`] does before it begins.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] for a value outside its range, for no target at all, and for a distance that leaves larger gaps than the
+    /// radius allows: more than sqrt(3) times as much.
+    pub fn validate(&self) -> Result<(), Error> {
+        let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
+        let is_in = |value: Option<f64>, low: f64, high: f64| value.is_none_or(|value| value >= low && value <= high);
+        let shown = |value: Option<f64>| value.map_or_else(|| "not given".into(), |value| value.to_string());
+        if !is_in(self.min_distance, f64::MIN_POSITIVE, 1.0) {
+            return invalid("min_distance", shown(self.min_distance), "positive, and 1 at most");
+        }
+        if !is_in(self.coverage_radius, 0.577, f64::MAX) {
+            return invalid("coverage_radius", shown(self.coverage_radius), "0.577 or more, and finite");
+        }
+        if !is_in(self.capacity_tolerance, f64::MIN_POSITIVE, f64::MAX) {
+            return invalid("capacity_tolerance", shown(self.capacity_tolerance), "positive and finite");
+        }
+        if !(self.relaxation > 0.0 && self.relaxation < 2.0) {
+            return invalid("relaxation", self.relaxation.to_string(), "more than 0, and less than 2");
+        }
+        if self.max_passes == Some(0) {
+            return invalid("max_passes", "0".into(), "1 or more");
+        }
+        match (self.min_distance, self.coverage_radius) {
+            (None, None) if self.capacity_tolerance.is_none() => {
+                invalid("min_distance", shown(None), "given, or coverage_radius, or capacity_tolerance: there is no target")
+            }
+            (Some(distance), Some(radius)) if distance > 3f64.sqrt() * radius => {
+                invalid("min_distance", distance.to_string(), "at most 1.732 times the coverage_radius, or both cannot be met")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The targets that points with these measures do not reach, beyond a millionth.
+    pub fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
+        const ROUNDING: f64 = 1e-6;
+        let targets = [
+            ("min_distance", self.min_distance, measures.min_distance, -1.0),
+            ("coverage_radius", self.coverage_radius, measures.coverage_radius, 1.0),
+            ("capacity_tolerance", self.capacity_tolerance, measures.capacity_max_deviation, 1.0),
+        ];
+        let wanted = targets.into_iter().filter_map(|(name, wanted, measured, sign)| Some((name, wanted?, measured, sign)));
+        wanted
+            .filter(|(_, wanted, measured, sign)| sign * (measured - wanted) > ROUNDING)
+            .map(|(name, wanted, measured, _)| UnmetTarget { name, wanted, measured })
+            .collect()
+    }
+
+    /// Passes that tough targets may take: more points have a worse worst spot.
+    fn pass_limit(&self, n_points: usize) -> usize {
+        self.max_passes.unwrap_or_else(|| (1000.0 * ((n_points as f64).log10() - 1.0)).max(2000.0) as usize)
+    }
+}
+
+/// Optimises `points` in place; their number and order stay.
+///
+/// Where the targets are not reached, the report says so, and `points` are in the state in which most of them were at rest.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] as [`PushPullParams::validate`] has it; [`Error::TooFine`] where f64 cannot tell the points apart;
+/// [`Error::Degenerate`] where they cannot be triangulated. The points are untouched then.
+///
+/// # Example
+/// ```
+/// use evenly::{Outcome, PushPullParams, RunContext, Torus, measure, push_pull, warp_isotropic, white};
+///
+/// let mut points = white(Torus::new([0.0, 0.0], [1.0, 1.0])?, 1000, 7)?;
+/// warp_isotropic(&mut points);
+/// let report = push_pull(&mut points, &PushPullParams::default(), &mut RunContext::default())?;
+/// assert_eq!(report.outcome, Outcome::Converged);
+/// let measures = measure(&points)?;
+/// assert!(measures.min_distance >= 0.85 && measures.coverage_radius <= 0.67);
+/// # Ok::<(), evenly::Error>(())
+/// ```
+pub fn push_pull(points: &mut PointSet, params: &PushPullParams, run: &mut RunContext) -> Result<Report, Error> {
+    params.validate()?;
+    let mut report = Report::new("push-pull", points.n_points());
+    if let Some((distance, radius)) = frontier::nearest_known(params) {
+        let radius = if radius.is_finite() { format!(" with coverage radius {radius}") } else { String::new() };
+        report.notes.push(format!("these targets are not known to be reached; the nearest that are: min distance {distance}{radius}"));
+    }
+
+    // Distinct points, and their Delaunay triangulation.
+    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, &mut report, run)? else { return Ok(report) };
+    run.enter(Phase::Triangulate);
+    let mut sweep = Sweep::new(LiveMesh::new(&domain, positions, order, spacing)?);
+    report.triangulations = 1;
+
+    // Visits, until no point has to move another; with less zeal where that leads astray.
+    run.enter(Phase::Optimize);
+    let mut plan = Plan {
+        schedule: params.schedule,
+        max_passes: params.pass_limit(points.n_points()),
+        seed: params.seed,
+        ends_if_diverging: params.relaxation > 1.0,
+    };
+    let mut ending = sweep.run(&PushPull(*params), &plan, run, &mut report)?;
+    if ending == Ending::Diverging {
+        report
+            .notes
+            .push(format!("relaxation {} diverges after {} passes: from the best state on it is 1", params.relaxation, report.iterations));
+        plan.ends_if_diverging = false;
+        sweep.return_to_best()?;
+        report.triangulations += 1;
+        ending = sweep.run(&PushPull(PushPullParams { relaxation: 1.0, ..*params }), &plan, run, &mut report)?;
+    }
+    report.outcome = match ending {
+        Ending::Converged => Outcome::Converged,
+        Ending::Cancelled => Outcome::Cancelled,
+        Ending::PassLimit | Ending::Diverging => Outcome::IterationLimit,
+    };
+    let best = sweep.into_best();
+    if report.outcome == Outcome::IterationLimit {
+        report.notes.push(format!(
+            "stopped after {} passes; the state after pass {} is kept, in which {:.2} % of the points were at rest",
+            report.iterations,
+            best.pass,
+            100.0 * best.stable_share
+        ));
+    }
+    points.place(&domain, &best.order, &best.places);
+    if report.outcome != Outcome::Converged || params.min_distance.is_none() {
+        keep_distinct(points);
+    }
+    Ok(report)
+}

@@ -1,0 +1,87 @@
+//! The three steps of a visit, on a copy of the star: pull what is too far, push what is too near, and press or suck where the cell is
+//! too small or too large. All move neighbours along their spokes, so the angles of the star stay true.
+
+use super::PushPullParams;
+use crate::star::{Rule, Star};
+
+/// How much beyond the wanted distance a neighbour is pushed: nothing is then left to rounding.
+const OVERSHOOT: f64 = 1e-3;
+/// How much below the wanted radius a triangle is pulled.
+const UNDERSHOOT: f64 = 1e-4;
+/// Sides shorter than this part of a cell's longest, walls aside, do next to nothing for its area: the neighbours behind them stay.
+const SHORT: f64 = 0.25;
+/// The area of a cell of the hexagonal lattice with spacing 1: the mean capacity.
+const MEAN_CAPACITY: f64 = 0.866_025_403_784_438_6;
+
+pub(super) struct PushPull(pub PushPullParams);
+
+impl Rule for PushPull {
+    fn visit(&self, star: &mut Star) -> bool {
+        let PushPullParams { min_distance, coverage_radius, capacity_tolerance, relaxation, .. } = self.0;
+        let has_pulled = coverage_radius.is_some_and(|radius| cover(star, radius, relaxation));
+        let has_pushed = min_distance.is_some_and(|distance| push_away(star, distance, relaxation));
+        let has_pressed = capacity_tolerance.is_some_and(|tolerance| equalize(star, tolerance, relaxation));
+        has_pulled || has_pushed || has_pressed
+    }
+}
+
+/// Coverage (the paper's optimization 2): a triangle whose circumradius is too large is pulled in, to a similar one. Of two triangles
+/// that pull at a neighbour the stronger has it. Obtuse ones are pulled too: on curved surfaces they count.
+fn cover(star: &mut Star, radius: f64, relaxation: f64) -> bool {
+    if star.is_all_covered(radius) {
+        return false;
+    }
+    let n = star.n_spokes();
+    let mut scales = std::mem::take(&mut star.scratch);
+    scales.clear();
+    scales.resize(n, 1.0f64);
+    for k in (0..n).filter(|&k| !star.is_covered(k, radius)) {
+        let scale = radius * (1.0 - UNDERSHOOT) / star.circumradius(k);
+        for end in [k, star.after(k)] {
+            scales[end] = scales[end].min(scale);
+        }
+    }
+    for (length, scale) in star.lengths.iter_mut().zip(&scales) {
+        *length *= 1.0 - relaxation * (1.0 - scale);
+    }
+    star.scratch = scales;
+    true
+}
+
+/// Conflict (optimization 1): a neighbour that is too near is pushed away. One's own image behind a wall is no neighbour.
+fn push_away(star: &mut Star, distance: f64, relaxation: f64) -> bool {
+    let mut has_pushed = false;
+    for (length, &is_mirror) in star.lengths.iter_mut().zip(&star.is_mirror) {
+        if *length < distance && !is_mirror {
+            *length += relaxation * (distance * (1.0 + OVERSHOOT) - *length);
+            has_pushed = true;
+        }
+    }
+    has_pushed
+}
+
+/// Capacity (optimization 3): a cell of wrong area presses on its sides in proportion to their length, p = -(A - mean) / sum l^2, so that
+/// each goes by p l and the neighbour behind it by twice that. Walls do not give way, and short sides are left alone.
+fn equalize(star: &mut Star, tolerance: f64, relaxation: f64) -> bool {
+    let excess = star.measure_cell() / MEAN_CAPACITY - 1.0;
+    if excess.abs() <= tolerance {
+        return false;
+    }
+    let Star { lengths, sides, is_mirror, .. } = star;
+    for (side, _) in sides.iter_mut().zip(is_mirror).filter(|(_, is_mirror)| **is_mirror) {
+        *side = 0.0;
+    }
+    let short = SHORT * sides.iter().copied().fold(0.0, f64::max);
+    for side in sides.iter_mut().filter(|side| **side < short) {
+        *side = 0.0;
+    }
+    let squares: f64 = sides.iter().map(|side| side * side).sum();
+    if squares == 0.0 {
+        return false;
+    }
+    let pressure = -excess * MEAN_CAPACITY / squares;
+    for (length, side) in lengths.iter_mut().zip(sides) {
+        *length += relaxation * 2.0 * pressure * *side;
+    }
+    true
+}

@@ -1,0 +1,134 @@
+//! A *star*: one vertex seen from itself. It knows lengths and angles, and no coordinates; a rule reads it, and nothing else.
+//!
+//! Lengths are in units of the wanted spacing. The wedge of two neighbouring spokes u and v has a circumcircle, and holds a kite of the
+//! vertex' Voronoi cell: with c and s the cosine and sine of its angle, R = |u - v| / (2 s), and the half of the
+//! Voronoi edge on u that lies in it is (v - u c) / (2 s) long, negative where it lies on the other side of u.
+
+/// The angle between a spoke and the next one, counter-clockwise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Wedge {
+    pub cos: f64,
+    pub sin: f64,
+    /// 1 / sin.
+    pub cosecant: f64,
+}
+
+/// One vertex' neighbourhood. Spoke `k`, wedge `k` and spoke `k + 1` follow each other counter-clockwise; the last wedge closes the ring.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Star {
+    /// Lengths of the spokes. A rule that moves neighbours leaves their new distances here; the vertex itself goes instead of a mirror image.
+    pub lengths: Vec<f64>,
+    pub wedges: Vec<Wedge>,
+    /// Whether a spoke leads to the vertex' own mirror image behind a wall: its half is the distance to the wall.
+    pub is_mirror: Vec<bool>,
+    /// A rule that moves the vertex itself leaves a weight for each spoke: it goes by the sum of weight times spoke. Empty at first.
+    pub weights: Vec<f64>,
+    /// Room for a rule's own reckoning.
+    pub scratch: Vec<f64>,
+    /// The lengths of the Voronoi edges across the spokes, as [`Self::measure_cell`] has found them.
+    pub sides: Vec<f64>,
+}
+
+/// A local method: what is wrong in a star, and what would mend it.
+pub(crate) trait Rule: Sync {
+    /// Leaves new `lengths`, or `weights`; false where nothing is to be done.
+    fn visit(&self, star: &mut Star) -> bool;
+}
+
+impl Star {
+    pub fn n_spokes(&self) -> usize {
+        self.lengths.len()
+    }
+
+    pub fn clear(&mut self) {
+        self.lengths.clear();
+        self.wedges.clear();
+        self.is_mirror.clear();
+        self.weights.clear();
+    }
+
+    /// The spoke after `k`.
+    #[inline]
+    pub fn after(&self, k: usize) -> usize {
+        if k + 1 == self.lengths.len() { 0 } else { k + 1 }
+    }
+
+    /// Whether the circumradius of wedge `k`'s triangle is at most `radius`.
+    #[inline]
+    pub fn is_covered(&self, k: usize, radius: f64) -> bool {
+        let diameter = 2.0 * radius * self.wedges[k].sin;
+        self.rim_squared(k) <= diameter * diameter
+    }
+
+    /// The circumradius of wedge `k`'s triangle.
+    pub fn circumradius(&self, k: usize) -> f64 {
+        0.5 * self.rim_squared(k).sqrt() * self.wedges[k].cosecant
+    }
+
+    /// The square of the distance between the ends of spokes `k` and `k + 1`.
+    #[inline]
+    fn rim_squared(&self, k: usize) -> f64 {
+        let (u, v) = (self.lengths[k], self.lengths[self.after(k)]);
+        u * u + v * v - 2.0 * u * v * self.wedges[k].cos
+    }
+
+    /// Whether that is so in all wedges.
+    pub fn is_all_covered(&self, radius: f64) -> bool {
+        (0..self.n_spokes()).all(|k| self.is_covered(k, radius))
+    }
+
+    /// The area of the Voronoi cell; leaves the lengths of its edges in `sides`.
+    pub fn measure_cell(&mut self) -> f64 {
+        let Self { lengths, wedges, sides, .. } = self;
+        sides.clear();
+        let Some(&first) = lengths.first() else { return 0.0 };
+        let after = lengths[1..].iter().chain([&first]);
+        // A side lies half in the wedge before its spoke, half in that after it.
+        let mut half_before = 0.0;
+        for ((&u, &v), Wedge { cos, cosecant, .. }) in lengths.iter().zip(after).zip(&*wedges) {
+            sides.push(half_before + 0.5 * (v - u * cos) * cosecant);
+            half_before = 0.5 * (u - v * cos) * cosecant;
+        }
+        sides[0] += half_before;
+        // Each side makes a triangle with the vertex, half a spoke high.
+        0.25 * lengths.iter().zip(sides).map(|(length, side)| length * *side).sum::<f64>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Spokes of one length, evenly around.
+    fn regular(n: usize, length: f64) -> Star {
+        let (sin, cos) = (std::f64::consts::TAU / n as f64).sin_cos();
+        Star {
+            lengths: vec![length; n],
+            wedges: vec![Wedge { cos, sin, cosecant: 1.0 / sin }; n],
+            is_mirror: vec![false; n],
+            ..Star::default()
+        }
+    }
+
+    #[test]
+    fn the_star_of_the_hexagonal_lattice_has_its_cell_and_radius() {
+        let mut star = regular(6, 1.0);
+        assert!((star.measure_cell() - 3f64.sqrt() / 2.0).abs() < 1e-14);
+        for k in 0..6 {
+            assert!((star.circumradius(k) - 1.0 / 3f64.sqrt()).abs() < 1e-14);
+            assert!((star.sides[k] - 1.0 / 3f64.sqrt()).abs() < 1e-14);
+            assert!(star.is_covered(k, 0.578) && !star.is_covered(k, 0.577));
+        }
+    }
+
+    #[test]
+    fn in_a_square_star_a_long_spoke_has_a_far_side() {
+        let mut star = regular(4, 2.0);
+        star.lengths[1] = 3.0;
+        // The cell is 2 wide, and from -1 to 1.5 high.
+        assert!((star.measure_cell() - 5.0).abs() < 1e-14);
+        let sides = star.sides.iter().zip([2.5, 2.0, 2.5, 2.0]);
+        assert!({ sides }.all(|(side, expected)| (side - expected).abs() < 1e-14));
+        assert!((star.circumradius(0) - 13f64.sqrt() / 2.0).abs() < 1e-14);
+    }
+}

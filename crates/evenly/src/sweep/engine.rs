@@ -1,0 +1,275 @@
+//! Passes over what is dirty, until one finds nothing to do.
+
+use glam::DVec2;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::cells::Cells;
+use super::summed::summed_pass;
+use super::visit::{Work, visit};
+use crate::error::Error;
+use crate::points::Random;
+use crate::run::{Phase, Progress, Report, RunContext};
+use crate::star::Rule;
+use crate::triangulation::{LiveMesh, StarBuffer, Territory};
+
+/// When the moves are made that a pass asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Schedule {
+    /// At each visit, before the next: each point sees what the others have done (Gauss-Seidel).
+    #[default]
+    InTurn,
+    /// At the end of the pass, all together, each point by the sum of what its neighbours asked of it (Jacobi).
+    Summed,
+}
+
+/// How a sweep is to go.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plan {
+    pub schedule: Schedule,
+    /// The sweep ends after so many passes in any case.
+    pub max_passes: usize,
+    /// The order of visits depends on it, on the pass and on the cell.
+    pub seed: u64,
+    /// Whether the sweep ends where it gets worse and worse.
+    pub ends_if_diverging: bool,
+}
+
+/// How a sweep has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// A pass found nothing to do, and all of the mesh is Delaunay.
+    Converged,
+    PassLimit,
+    Cancelled,
+    Diverging,
+}
+
+/// Points on their way.
+pub(crate) struct Sweep {
+    mesh: LiveMesh,
+    cells: Cells,
+    /// What each pass wanted to move: squared, in spacings, on average of the points.
+    unrest: Vec<f64>,
+    best: Best,
+}
+
+/// The state after the pass that found the least unrest.
+struct Best {
+    unrest: f64,
+    n_unstable: usize,
+    /// The pass, counted from 1; 0 for the start.
+    pass: usize,
+    places: Vec<DVec2>,
+}
+
+/// What a sweep leaves behind.
+pub(crate) struct BestState {
+    /// The share of points at which the rule had nothing to do.
+    pub stable_share: f64,
+    /// The pass after which it was reached; 0 for the start.
+    pub pass: usize,
+    pub places: Vec<DVec2>,
+    /// The caller's index of each point.
+    pub order: Vec<u32>,
+}
+
+/// A pass is kept as the best if it found less than this share of the unrest of the one before.
+const BETTER: f64 = 0.9;
+/// A sweep diverges that after this many passes
+const PATIENCE: usize = 400;
+/// finds, on average of the last ones,
+const WINDOW: usize = 64;
+/// more than this unrest a point. Those that converge in the end have come below by then.
+const RESTLESS: f64 = 0.007;
+/// After this many passes, and at the powers of two before, points are put into the cells where they are by then.
+const RENEWAL: usize = 64;
+
+impl Sweep {
+    pub fn new(mesh: LiveMesh) -> Self {
+        let cells = Cells::new(&mesh);
+        let best = Best { unrest: f64::INFINITY, n_unstable: mesh.n_points(), pass: 0, places: mesh.points() };
+        Self { mesh, cells, unrest: Vec::new(), best }
+    }
+
+    /// Sweeps until nothing moves, and adds to the report what it did.
+    ///
+    /// # Errors
+    /// Only where points can no longer be triangulated, which no move leads to.
+    pub fn run(&mut self, rule: &impl Rule, plan: &Plan, run: &mut RunContext, report: &mut Report) -> Result<Ending, Error> {
+        self.unrest.clear();
+        while report.iterations < plan.max_passes {
+            if run.is_cancelled() {
+                return Ok(Ending::Cancelled);
+            }
+            let pass = self.unrest.len();
+            if pass.is_power_of_two() || pass.is_multiple_of(RENEWAL) {
+                debug_assert_eq!(self.mesh.triangulation().check(), Ok(()));
+                self.cells.assign(&mut self.mesh);
+            }
+            let work = match plan.schedule {
+                Schedule::InTurn => self.pass(rule, Random::derived(plan.seed, report.iterations), run),
+                Schedule::Summed => Some(summed_pass(&mut self.mesh, rule)),
+            };
+            let Some(work) = work else { return Ok(Ending::Cancelled) };
+            report.iterations += 1;
+            report.visits += work.n_visits;
+            report.flips += work.n_flips;
+            report.stable_share.push(1.0 - work.n_unstable as f64 / self.mesh.n_points() as f64);
+            self.unrest.push(work.unrest / self.mesh.n_points() as f64);
+            self.keep_best(&work, report.iterations);
+            self.show(run, report);
+            let is_still = work.n_unstable == 0;
+            let n_late_flips = if is_still { self.mesh.legalize() } else { 0 };
+            report.flips += n_late_flips;
+            let was_torn = self.mesh.mend()?;
+            if was_torn {
+                report.triangulations += 1;
+                self.cells.assign(&mut self.mesh);
+            }
+            if is_still && n_late_flips == 0 && !was_torn {
+                return Ok(Ending::Converged);
+            }
+            if plan.ends_if_diverging && self.is_diverging() {
+                return Ok(Ending::Diverging);
+            }
+        }
+        Ok(Ending::PassLimit)
+    }
+
+    /// Visits what is dirty: cell by cell, colour by colour, then what reaches too far. `None` if cancelled on the way.
+    fn pass(&mut self, rule: &impl Rule, seed: u64, run: &RunContext) -> Option<Work> {
+        let mut total = Work::default();
+        for colour in self.cells.colours() {
+            if run.is_cancelled() {
+                return None;
+            }
+            let cells = colour.into_par_iter();
+            let done: Vec<Work> = cells.map_init(StarBuffer::default, |buffer, cell| self.visit_cell(rule, cell, seed, buffer)).collect();
+            done.iter().for_each(|work| total.add(work));
+        }
+        let deferred = std::mem::take(&mut total.deferred);
+        total.add(&self.visit_all(rule, &deferred, Territory::EVERYTHING, &mut StarBuffer::default()));
+        Some(total)
+    }
+
+    fn visit_cell(&self, rule: &impl Rule, cell: u32, seed: u64, buffer: &mut StarBuffer) -> Work {
+        let mut dirty: Vec<u32> = self.cells.members(cell).iter().copied().filter(|&v| self.mesh.is_dirty(v)).collect();
+        Random::new(seed, u64::from(cell)).shuffle(&mut dirty);
+        self.visit_all(rule, &dirty, self.cells.territory(cell), buffer)
+    }
+
+    fn visit_all(&self, rule: &impl Rule, points: &[u32], territory: Territory, buffer: &mut StarBuffer) -> Work {
+        let mut work = Work::default();
+        buffer.n_flips = 0;
+        for &v in points {
+            match visit(&self.mesh, rule, v, territory, buffer) {
+                Ok(unrest) => work.count(unrest),
+                Err(_) => work.deferred.push(v),
+            }
+        }
+        work.n_flips = buffer.n_flips;
+        work
+    }
+
+    fn keep_best(&mut self, work: &Work, pass: usize) {
+        if work.unrest < BETTER * self.best.unrest || work.unrest == 0.0 {
+            self.best = Best { unrest: work.unrest, n_unstable: work.n_unstable, pass, places: self.mesh.points() };
+        }
+    }
+
+    fn is_diverging(&self) -> bool {
+        let last = &self.unrest[self.unrest.len().saturating_sub(WINDOW)..];
+        self.unrest.len() > PATIENCE && last.iter().sum::<f64>() > RESTLESS * WINDOW as f64
+    }
+
+    /// Goes back to the best state.
+    pub fn return_to_best(&mut self) -> Result<(), Error> {
+        self.mesh.rebuild(self.best.places.clone())
+    }
+
+    /// The best state.
+    pub fn into_best(self) -> BestState {
+        let Best { n_unstable, pass, places, .. } = self.best;
+        let stable_share = 1.0 - n_unstable as f64 / self.mesh.n_points() as f64;
+        BestState { stable_share, pass, places, order: self.mesh.into_order() }
+    }
+
+    /// Unstable points become fewer about exponentially.
+    fn show(&self, run: &mut RunContext, report: &Report) {
+        let fraction = 1.0 - (1.0 + self.best.n_unstable as f64).ln() / (1.0 + self.mesh.n_points() as f64).ln();
+        let stable_share = report.stable_share.last().copied();
+        run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share, fraction });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::{PointSet, hilbert_order};
+    use crate::star::Star;
+    use crate::{CancelToken, Rectangle, Space, Torus, measure, white};
+
+    /// Each point goes half the way to the mean of its neighbours: a rule that knows nothing of pushing and pulling.
+    struct Smooth;
+
+    impl Rule for Smooth {
+        fn visit(&self, star: &mut Star) -> bool {
+            let share = 0.5 / star.n_spokes() as f64;
+            star.weights.resize(star.n_spokes(), share);
+            true
+        }
+    }
+
+    fn sweep(points: &PointSet) -> Sweep {
+        let (domain, positions) = points.normalized();
+        let order = hilbert_order(&positions, domain.size);
+        let sorted = order.iter().map(|&index| positions[index as usize]).collect();
+        Sweep::new(LiveMesh::new(&domain, sorted, order, domain.hex_spacing(positions.len())).unwrap())
+    }
+
+    fn smooth(space: Space, schedule: Schedule, n_threads: usize) -> (PointSet, Report) {
+        let mut points = white(space, 3000, 5).unwrap();
+        let plan = Plan { schedule, max_passes: 30, seed: 1, ends_if_diverging: false };
+        let mut report = Report::new("smooth", 3000);
+        let mut sweep = sweep(&points);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+        let ending = pool.install(|| sweep.run(&Smooth, &plan, &mut RunContext::default(), &mut report)).unwrap();
+        assert_eq!((ending, report.iterations), (Ending::PassLimit, 30));
+        let best = sweep.into_best();
+        points.place(&points.space().domain(), &best.order, &best.places);
+        (points, report)
+    }
+
+    #[test]
+    fn another_rule_runs_in_every_space_with_the_same_bits_on_any_threads() {
+        let spaces: [Space; 2] =
+            [Torus::new([0.0, 0.0], [1.0, 1.0]).unwrap().into(), Rectangle::new([0.0, 0.0], [5.0, 1.0]).unwrap().into()];
+        for space in spaces {
+            for schedule in [Schedule::InTurn, Schedule::Summed] {
+                let one = smooth(space, schedule, 1);
+                assert!(smooth(space, schedule, 3) == one);
+                let before = measure(&white(space, 3000, 5).unwrap()).unwrap();
+                let after = measure(&one.0).unwrap();
+                assert!(after.angle_rms_deg < 0.5 * before.angle_rms_deg, "{} {}", after.angle_rms_deg, before.angle_rms_deg);
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_that_is_cancelled_at_once_leaves_the_points_where_they_are() {
+        let points = white(Torus::new([0.0, 0.0], [1.0, 1.0]).unwrap(), 100, 2).unwrap();
+        let cancel = CancelToken::default();
+        cancel.cancel();
+        let mut sweep = sweep(&points);
+        let mut report = Report::new("smooth", 100);
+        let plan = Plan { schedule: Schedule::InTurn, max_passes: 9, seed: 0, ends_if_diverging: false };
+        let ending = sweep.run(&Smooth, &plan, &mut RunContext::default().with_cancel(cancel), &mut report).unwrap();
+        assert_eq!((ending, report.iterations), (Ending::Cancelled, 0));
+        let mut after = points.clone();
+        let best = sweep.into_best();
+        after.place(&points.space().domain(), &best.order, &best.places);
+        assert_eq!(after, points);
+    }
+}

@@ -1,0 +1,198 @@
+//! [`LiveMesh`]: a Delaunay triangulation whose vertices move, and which is Delaunay where it is looked at.
+
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::delaunay::delaunay;
+use super::frame::{FRAME, framed};
+use super::half_edges::{BORDER, next};
+use super::mesh::Triangulation;
+use super::shared::{SharedMesh, Territory};
+use crate::error::Error;
+use crate::predicates::is_in_circle;
+use crate::space::Domain;
+
+/// A triangulation of points that [`relocate`](Self::relocate) moves and [`read`](Self::read) shows, from several threads.
+///
+/// A point is dirty if something has changed around it since it was last cleaned; all are at first.
+pub(crate) struct LiveMesh {
+    pub(super) mesh: SharedMesh,
+    /// The domain that was asked for, and the cover of it that the mesh fills.
+    base: Domain,
+    pub(super) domain: Domain,
+    copies: [u32; 2],
+    /// The caller's index of each point.
+    order: Vec<u32>,
+    /// Vertices that move; those after them are the frame's.
+    pub(super) n_live: u32,
+    /// The wanted spacing.
+    pub(super) spacing: f64,
+    /// Whether a point and its copies have gone different ways, or the cover has become too small.
+    pub(super) is_torn: AtomicBool,
+}
+
+/// A vertex outside the territory was needed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Outside;
+
+impl LiveMesh {
+    /// The Delaunay triangulation of distinct points, given in Hilbert order. Stars will show lengths in units of `spacing`.
+    pub fn new(base: &Domain, points: Vec<DVec2>, order: Vec<u32>, spacing: f64) -> Result<Self, Error> {
+        let triangulation = if base.is_periodic { delaunay(base, points, order)? } else { framed(base, points, order)? };
+        let n_frame = if base.is_periodic { 0 } else { FRAME.len() };
+        let Triangulation { half_edges, positions, domain, copies, order } = triangulation;
+        Ok(Self {
+            mesh: SharedMesh::new(&half_edges, &positions),
+            base: *base,
+            domain,
+            copies,
+            order,
+            n_live: (positions.len() - n_frame) as u32,
+            spacing,
+            is_torn: AtomicBool::new(false),
+        })
+    }
+
+    /// The same points, put at `places` and triangulated anew.
+    pub fn rebuild(&mut self, places: Vec<DVec2>) -> Result<(), Error> {
+        *self = Self::new(&self.base, places, std::mem::take(&mut self.order), self.spacing)?;
+        Ok(())
+    }
+
+    /// Triangulates anew where the mesh is torn; of a point and its copies, the point's own way counts. Whether it had to.
+    pub fn mend(&mut self) -> Result<bool, Error> {
+        let is_torn = *self.is_torn.get_mut();
+        if is_torn {
+            self.rebuild(self.points())?;
+        }
+        Ok(is_torn)
+    }
+
+    /// How many points there are: vertices that are neither copies nor the frame's.
+    pub fn n_points(&self) -> usize {
+        self.order.len()
+    }
+
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    pub fn position(&self, v: u32) -> DVec2 {
+        self.mesh.position(v)
+    }
+
+    pub fn is_dirty(&self, v: u32) -> bool {
+        self.mesh.is_dirty(v)
+    }
+
+    /// Says that `v` must be looked at again; the point, where it is a copy.
+    #[inline]
+    pub fn soil(&self, v: u32) {
+        if v < self.n_live {
+            self.mesh.set_dirty(self.point(v), true);
+        }
+    }
+
+    pub fn clean(&self, v: u32) {
+        self.mesh.set_dirty(v, false);
+    }
+
+    /// Puts a vertex and its copies into a block, by which territories tell it.
+    pub fn set_block(&mut self, v: u32, block: u32) {
+        self.mesh.set_block(v, block);
+    }
+
+    /// Whether points have copies.
+    #[inline]
+    pub fn is_cover(&self) -> bool {
+        self.copies != [1, 1]
+    }
+
+    /// The point of which `v` is a copy.
+    #[inline]
+    pub fn point(&self, v: u32) -> u32 {
+        if self.is_cover() { v % self.order.len() as u32 } else { v }
+    }
+
+    #[inline]
+    pub(super) fn spoke(&self, from: DVec2, to: u32) -> DVec2 {
+        self.domain.spoke(from, self.mesh.position(to))
+    }
+
+    /// Whether `v` may be touched; the frame never changes.
+    #[inline]
+    pub fn is_free(&self, v: u32, territory: Territory) -> bool {
+        v >= self.n_live || self.mesh.is_within(v, territory)
+    }
+
+    /// Whether the edge of `h` must be flipped. Exact; never on a border. Where the other diagonal is too long for the cover, the mesh is
+    /// torn instead.
+    pub(super) fn is_illegal(&self, h: u32) -> bool {
+        if self.mesh.twin(h) == BORDER {
+            return false;
+        }
+        let [p, q, r, s] = self.mesh.quadrilateral(h);
+        let from = self.mesh.position(p);
+        let [q, r, s] = [q, r, s].map(|v| self.spoke(from, v));
+        if !is_in_circle(q, r, s) {
+            return false;
+        }
+        let is_spoke = self.domain.is_spoke(s - r);
+        if !is_spoke {
+            self.is_torn.store(true, Relaxed);
+        }
+        is_spoke
+    }
+
+    pub(super) fn flip(&self, h: u32) {
+        for v in self.mesh.quadrilateral(h) {
+            self.soil(v);
+        }
+        self.mesh.flip(h);
+    }
+
+    /// Lawson's flips: makes all of the mesh Delaunay. Returns how many it took.
+    pub fn legalize(&mut self) -> usize {
+        let all = 0..self.mesh.n_half_edges() as u32;
+        let mut suspects: Vec<u32> = all.into_par_iter().filter(|&h| self.mesh.twin(h) > h && self.is_illegal(h)).collect();
+        let mut n_flips = 0;
+        while let Some(h) = suspects.pop() {
+            if self.is_illegal(h) {
+                let t = self.mesh.twin(h);
+                self.flip(h);
+                suspects.extend([h, t, next(h), next(t)]);
+                n_flips += 1;
+            }
+        }
+        debug_assert!(*self.is_torn.get_mut() || self.triangulation().check_delaunay() == Ok(()));
+        n_flips
+    }
+
+    /// A copy as a plain triangulation, the frame included.
+    pub fn triangulation(&self) -> Triangulation {
+        Triangulation {
+            half_edges: self.mesh.half_edges(),
+            positions: (0..self.mesh.n_vertices() as u32).map(|v| self.mesh.position(v)).collect(),
+            domain: self.domain,
+            copies: self.copies,
+            order: self.order.clone(),
+        }
+    }
+
+    /// The positions of the points.
+    pub fn points(&self) -> Vec<DVec2> {
+        let home = |p: DVec2| if self.is_cover() { self.base.land(p - (p / self.base.size).floor() * self.base.size) } else { p };
+        (0..self.order.len() as u32).into_par_iter().map(|v| home(self.mesh.position(v))).collect()
+    }
+
+    /// The caller's index of each point.
+    pub fn into_order(self) -> Vec<u32> {
+        self.order
+    }
+}

@@ -1,0 +1,168 @@
+//! Moving a vertex, lazily: its triangles must stay upright, that they are Delaunay is seen to where they are next read.
+//!
+//! Where a triangle would get thin or turn over, the vertex goes in stages, each nine tenths of the way to the first triangle that
+//! loses its area, and the edges around it are made Delaunay in between.
+
+use std::sync::atomic::Ordering::Relaxed;
+
+use glam::DVec2;
+
+use super::half_edges::next;
+use super::live::{LiveMesh, Outside};
+use super::shared::Territory;
+use super::stars::StarBuffer;
+
+/// A quick move leaves every triangle this share of the mean area.
+const ROOM: f64 = 0.02;
+/// The part of the way to the first triangle without area that a stage goes.
+const STAGE: f64 = 0.9;
+/// More stages than ever needed: a vertex that is not there by then stays where it is.
+const MAX_STAGES: usize = 40;
+
+impl LiveMesh {
+    /// Moves a point, and all of its copies, by the vector `by`, and soils what stands around; or as far as it gets.
+    ///
+    /// Where that reaches out of the territory, some of the way may have been made.
+    pub fn relocate(&self, point: u32, by: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        let from = self.mesh.position(point);
+        let target = self.domain.land(from + by);
+        let mut is_there = self.go(point, target, territory, buffer)?;
+        if self.is_cover() {
+            // On the grid, so that copies move alike to the bit.
+            let by = self.domain.spoke(from, target);
+            for copy in (point..self.n_live).step_by(self.n_points()).skip(1) {
+                is_there &= self.go(copy, self.domain.land(self.mesh.position(copy) + by), territory, buffer)?;
+            }
+            if !is_there {
+                self.is_torn.store(true, Relaxed);
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves a vertex to its target; false if it was stopped on its way.
+    fn go(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<bool, Outside> {
+        Ok(self.step(v, target, territory)? || self.go_in_stages(v, target, territory, buffer)?)
+    }
+
+    /// Moves a vertex at once, if all triangles around keep some area.
+    fn step(&self, v: u32, target: DVec2, territory: Territory) -> Result<bool, Outside> {
+        let room = ROOM * self.spacing * self.spacing;
+        let first = self.mesh.outgoing(v);
+        let mut half_edge = first;
+        let mut before = self.spoke(target, self.mesh.origin(next(first)));
+        loop {
+            let (vertex, turned) = self.mesh.turn(half_edge);
+            if !self.is_free(vertex, territory) {
+                return Err(Outside);
+            }
+            self.soil(vertex);
+            let way = self.spoke(target, vertex);
+            if !(before.perp_dot(way) > room && self.domain.is_spoke(way - before)) {
+                return Ok(false);
+            }
+            (half_edge, before) = (turned, way);
+            if half_edge == first {
+                break;
+            }
+        }
+        self.mesh.set_position(v, target);
+        self.soil(v);
+        Ok(true)
+    }
+
+    fn go_in_stages(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<bool, Outside> {
+        for _ in 0..MAX_STAGES {
+            self.restore(v, territory, &mut buffer.moving, &mut buffer.n_flips)?;
+            self.soil(v);
+            buffer.moving.iter().for_each(|spoke| self.soil(spoke.vertex));
+            let from = self.mesh.position(v);
+            let way = self.domain.spoke(from, target);
+            if way == DVec2::ZERO {
+                return Ok(true);
+            }
+            // Twice a triangle's area falls by t way x rim on the part t of the way.
+            let ring = &buffer.moving;
+            let rims = ring.iter().enumerate().map(|(k, spoke)| (spoke, ring.get(k + 1).unwrap_or(&ring[0])));
+            let losses = rims.clone().map(|(spoke, after)| (spoke.cross, way.perp_dot(after.way - spoke.way)));
+            let clear = losses.filter(|&(_, loss)| loss > 0.0).map(|(area, loss)| area / loss).fold(f64::INFINITY, f64::min);
+            let to = if clear > 1.0 { target } else { self.domain.land(from + STAGE * clear * way) };
+            let ways = rims.map(|(spoke, after)| (self.spoke(to, spoke.vertex), self.spoke(to, after.vertex)));
+            if to == from || !{ ways }.all(|(u, v)| self.domain.is_upright(u, v)) {
+                return Ok(false);
+            }
+            self.mesh.set_position(v, to);
+        }
+        Ok(false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::points::{Random, separate};
+    use crate::{Rectangle, Space, Torus, white};
+
+    fn mesh(space: Space, n: usize, seed: u64) -> LiveMesh {
+        let (domain, mut positions) = white(space, n, seed).unwrap().normalized();
+        let spacing = domain.hex_spacing(n);
+        let order = separate(&domain, &mut positions, spacing).order;
+        let sorted = order.iter().map(|&index| positions[index as usize]).collect();
+        LiveMesh::new(&domain, sorted, order, spacing).unwrap()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+        #[test]
+        fn the_mesh_stays_one_wherever_points_go(
+            n in 3..80usize, seed in 0..1000u64, length in -3.0..1.5f64, aspect in -3.0..3.0f64, is_periodic: bool, is_lazy: bool,
+        ) {
+            let size = [1.0, aspect.exp()];
+            let space: Space =
+                if is_periodic { Torus::new([0.0, 0.0], size).unwrap().into() } else { Rectangle::new([0.0, 0.0], size).unwrap().into() };
+            let mut mesh = mesh(space, n, seed);
+            let mut buffer = StarBuffer::default();
+            let mut random = Random::new(seed, 9);
+            let reach = 10f64.powf(length) * mesh.spacing();
+            for _ in 0..60 {
+                let v = (random.unit() * n as f64) as u32;
+                let by = reach * DVec2::new(random.signed(), random.signed());
+                mesh.relocate(v, by, Territory::EVERYTHING, &mut buffer).unwrap();
+                if mesh.mend().unwrap() {
+                    continue;
+                }
+                prop_assert_eq!(mesh.triangulation().check(), Ok(()));
+                if !is_lazy {
+                    mesh.legalize();
+                }
+            }
+            mesh.legalize();
+            if !mesh.mend().unwrap() {
+                prop_assert_eq!(mesh.triangulation().check_delaunay(), Ok(()));
+            }
+        }
+    }
+
+    #[test]
+    fn what_lies_outside_the_territory_is_left_alone() {
+        let mut mesh = mesh(Torus::new([0.0, 0.0], [1.0, 1.0]).unwrap().into(), 500, 1);
+        // The upper half of the plane is another block.
+        for v in 0..500 {
+            let is_upper = mesh.position(v).y > 0.5;
+            mesh.set_block(v, if is_upper { 8 << 16 } else { 0 });
+        }
+        let lower = Territory { first: 0, outside: 8 << 16 };
+        let before: Vec<DVec2> = (0..500).map(|v| mesh.position(v)).collect();
+        let (mut buffer, mut n_outside) = (StarBuffer::default(), 0);
+        for v in 0..500 {
+            let has_moved = mesh.relocate(v, DVec2::splat(0.01), lower, &mut buffer).is_ok();
+            n_outside += usize::from(!has_moved);
+            assert!(!has_moved || before[v as usize].y <= 0.5);
+        }
+        assert!((250..400).contains(&n_outside));
+        assert!((0..500).all(|v| before[v as usize].y <= 0.5 || mesh.position(v) == before[v as usize]));
+        assert_eq!(mesh.triangulation().check(), Ok(()));
+    }
+}

@@ -1,0 +1,173 @@
+//! Mesh data that several threads may change at once, in safe Rust: relaxed atomics, plain loads and stores on today's machines.
+//!
+//! Who may touch what is not settled here but by [`Territory`]: no two threads ever meet at one number, so relaxed order is enough, and
+//! the result does not depend on them.
+
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
+
+use glam::DVec2;
+
+use super::half_edges::{BORDER, HalfEdges, next, prev};
+
+/// Half-edges and vertices, as in [`HalfEdges`], but shared.
+pub(super) struct SharedMesh {
+    /// What follows a half-edge counter-clockwise: the apex of its triangle, and above it the next half-edge around its origin.
+    ///
+    /// These are origin and twin of the half-edge before it, so a walk around a vertex takes one load a step.
+    turns: Vec<AtomicU64>,
+    vertices: Vec<Vertex>,
+}
+
+/// All that belongs to a vertex, side by side.
+struct Vertex {
+    x: AtomicU64,
+    y: AtomicU64,
+    /// A half-edge that leaves it.
+    outgoing: AtomicU32,
+    /// Its block, and whether it is dirty.
+    mark: AtomicU32,
+}
+
+/// The bits of a mark between its two fields; one of them says that the vertex is dirty.
+const GUARD: u32 = 0x8000_8000;
+const DIRTY: u32 = 0x0000_8000;
+
+/// The vertices that one thread may touch: those of some blocks of the plane. Blocks are numbered along both axes, in fields of a mark.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Territory {
+    /// The mark of its first block.
+    pub first: u32,
+    /// The bits that differ from 0, relative to the first block, outside of it.
+    pub outside: u32,
+}
+
+impl Territory {
+    /// All vertices.
+    pub const EVERYTHING: Self = Self { first: 0, outside: 0 };
+
+    #[inline]
+    fn holds(self, mark: u32) -> bool {
+        // The guards keep one field from borrowing from the other.
+        ((mark | GUARD) - self.first) & self.outside == 0
+    }
+}
+
+fn pair(apex: u32, turned: u32) -> u64 {
+    u64::from(turned) << 32 | u64::from(apex)
+}
+
+impl SharedMesh {
+    pub fn new(half_edges: &HalfEdges, positions: &[DVec2]) -> Self {
+        let before = (0..half_edges.origin.len() as u32).map(|h| prev(h) as usize);
+        let turns = before.map(|h| AtomicU64::new(pair(half_edges.origin[h], half_edges.twin[h])));
+        let vertices = positions.iter().zip(half_edges.outgoing(positions.len())).map(|(p, outgoing)| Vertex {
+            x: AtomicU64::new(p.x.to_bits()),
+            y: AtomicU64::new(p.y.to_bits()),
+            outgoing: AtomicU32::new(outgoing),
+            mark: AtomicU32::new(DIRTY),
+        });
+        Self { turns: turns.collect(), vertices: vertices.collect() }
+    }
+
+    pub fn half_edges(&self) -> HalfEdges {
+        let all = 0..self.n_half_edges() as u32;
+        HalfEdges { origin: all.clone().map(|h| self.origin(h)).collect(), twin: all.map(|h| self.twin(h)).collect() }
+    }
+
+    pub fn n_vertices(&self) -> usize {
+        self.vertices.len()
+    }
+
+    pub fn n_half_edges(&self) -> usize {
+        self.turns.len()
+    }
+
+    /// The apex of a half-edge's triangle, and the half-edge that leaves its origin there, on the other side of that edge.
+    #[inline]
+    pub fn turn(&self, h: u32) -> (u32, u32) {
+        let turn = self.turns[h as usize].load(Relaxed);
+        (turn as u32, (turn >> 32) as u32)
+    }
+
+    #[inline]
+    pub fn origin(&self, h: u32) -> u32 {
+        self.turn(next(h)).0
+    }
+
+    #[inline]
+    pub fn twin(&self, h: u32) -> u32 {
+        self.turn(next(h)).1
+    }
+
+    /// Makes `origin` and `twin` those of `h`.
+    fn set(&self, h: u32, origin: u32, twin: u32) {
+        self.turns[next(h) as usize].store(pair(origin, twin), Relaxed);
+    }
+
+    /// A half-edge that leaves `v`.
+    #[inline]
+    pub fn outgoing(&self, v: u32) -> u32 {
+        self.vertices[v as usize].outgoing.load(Relaxed)
+    }
+
+    #[inline]
+    pub fn position(&self, v: u32) -> DVec2 {
+        let vertex = &self.vertices[v as usize];
+        DVec2::new(f64::from_bits(vertex.x.load(Relaxed)), f64::from_bits(vertex.y.load(Relaxed)))
+    }
+
+    #[inline]
+    pub fn set_position(&self, v: u32, p: DVec2) {
+        let vertex = &self.vertices[v as usize];
+        vertex.x.store(p.x.to_bits(), Relaxed);
+        vertex.y.store(p.y.to_bits(), Relaxed);
+    }
+
+    /// Whether `v` lies in `territory`.
+    #[inline]
+    pub fn is_within(&self, v: u32, territory: Territory) -> bool {
+        territory.holds(self.vertices[v as usize].mark.load(Relaxed))
+    }
+
+    pub fn set_block(&self, v: u32, block: u32) {
+        let mark = &self.vertices[v as usize].mark;
+        mark.store(block | mark.load(Relaxed) & DIRTY, Relaxed);
+    }
+
+    #[inline]
+    pub fn is_dirty(&self, v: u32) -> bool {
+        self.vertices[v as usize].mark.load(Relaxed) & DIRTY != 0
+    }
+
+    #[inline]
+    pub fn set_dirty(&self, v: u32, is_dirty: bool) {
+        let mark = &self.vertices[v as usize].mark;
+        let block = mark.load(Relaxed) & !DIRTY;
+        mark.store(if is_dirty { block | DIRTY } else { block }, Relaxed);
+    }
+
+    /// The corners around the edge of `h`, which is on no border: its ends p and q, its apex r, and the apex s across.
+    pub fn quadrilateral(&self, h: u32) -> [u32; 4] {
+        let t = self.twin(h);
+        [self.origin(h), self.origin(t), self.turn(h).0, self.turn(t).0]
+    }
+
+    /// Replaces the edge of `h` by the other diagonal of its quadrilateral: (p q r) and (q p s) become (s q r) and (r p s).
+    pub fn flip(&self, h: u32) {
+        let t = self.twin(h);
+        let [p, q, r, s] = self.quadrilateral(h);
+        let (r_edge, s_edge) = (prev(h), prev(t));
+        let (across_t, across_h) = (self.twin(r_edge), self.twin(s_edge));
+        self.set(h, s, across_h);
+        self.set(t, r, across_t);
+        self.set(r_edge, r, s_edge);
+        self.set(s_edge, s, r_edge);
+        for (across, edge) in [(across_h, h), (across_t, t)] {
+            if across != BORDER {
+                self.set(across, self.origin(across), edge);
+            }
+        }
+        self.vertices[p as usize].outgoing.store(next(t), Relaxed);
+        self.vertices[q as usize].outgoing.store(next(h), Relaxed);
+    }
+}

@@ -1,0 +1,193 @@
+//! Reading a star: its edges are made Delaunay first, so that the cell it shows is the true one.
+
+use glam::DVec2;
+
+use super::half_edges::next;
+use super::live::{LiveMesh, Outside};
+use super::shared::Territory;
+use super::walls::WallCell;
+use crate::star::{Star, Wedge};
+
+/// Where the sum of two cotangents is less than this much of its terms, exact arithmetic decides on its sign.
+const DOUBT: f64 = 1e-9;
+
+/// What one thread reads stars into.
+#[derive(Default)]
+pub(crate) struct StarBuffer {
+    pub star: Star,
+    /// The star's spokes, as vectors.
+    pub spokes: Vec<Spoke>,
+    /// What a rule makes of the star: which points are to move, and by what.
+    pub moves: Vec<(u32, DVec2)>,
+    /// Edges flipped so far.
+    pub n_flips: usize,
+    /// The spokes of a vertex that moves.
+    pub(super) moving: Vec<Spoke>,
+    wall_cell: WallCell,
+}
+
+/// A half-edge from the vertex at hand to a neighbour, and the wedge between it and the next one, counter-clockwise.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Spoke {
+    /// A neighbour, or [`MIRROR`].
+    pub vertex: u32,
+    pub(super) half_edge: u32,
+    pub way: DVec2,
+    /// In spacings; only in a star.
+    pub length: f64,
+    pub(super) squared: f64,
+    pub(super) dot: f64,
+    pub(super) cross: f64,
+}
+
+/// In place of a neighbour: the vertex' own image behind a wall.
+pub(crate) const MIRROR: u32 = u32::MAX;
+
+impl LiveMesh {
+    /// Makes the star of `v` Delaunay, and reads it.
+    pub fn read(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        self.restore(v, territory, &mut buffer.spokes, &mut buffer.n_flips)?;
+        self.fill(v, buffer);
+        Ok(())
+    }
+
+    /// Goes around `v`, and flips its edges until none is illegal.
+    pub(super) fn restore(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke>, n_flips: &mut usize) -> Result<(), Outside> {
+        loop {
+            self.walk(v, territory, ring)?;
+            let Some(h) = self.find_illegal(ring) else { return Ok(()) };
+            self.flip(h);
+            *n_flips += 1;
+        }
+    }
+
+    /// Goes once around `v`, counter-clockwise.
+    fn walk(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke>) -> Result<(), Outside> {
+        ring.clear();
+        let at = self.mesh.position(v);
+        let first = self.mesh.outgoing(v);
+        let (mut vertex, mut half_edge) = (self.mesh.origin(next(first)), first);
+        let mut way = self.spoke(at, vertex);
+        loop {
+            if !self.is_free(vertex, territory) {
+                return Err(Outside);
+            }
+            let (after, turned) = self.mesh.turn(half_edge);
+            let way_after = self.spoke(at, after);
+            let (dot, cross) = (way.dot(way_after), way.perp_dot(way_after));
+            ring.push(Spoke { vertex, half_edge, way, length: 0.0, squared: way.length_squared(), dot, cross });
+            (vertex, half_edge, way) = (after, turned, way_after);
+            if half_edge == first {
+                return Ok(());
+            }
+        }
+    }
+
+    /// An edge that is illegal: a spoke, or one between neighbours.
+    fn find_illegal(&self, ring: &[Spoke]) -> Option<u32> {
+        // The angles opposite an edge sum to less than pi where their cotangents sum to more than 0.
+        let is_doubtful = |a: f64, b: f64| a + b <= DOUBT * (a.abs() + b.abs());
+        let mut before = &ring[ring.len() - 1];
+        for (k, spoke) in ring.iter().enumerate() {
+            let after = ring.get(k + 1).unwrap_or(&ring[0]);
+            let is_doubted = is_doubtful((after.squared - spoke.dot) * before.cross, (before.squared - before.dot) * spoke.cross);
+            if is_doubted && self.is_illegal(spoke.half_edge) {
+                return Some(spoke.half_edge);
+            }
+            before = spoke;
+        }
+        None
+    }
+
+    /// Turns the spokes in the buffer into a star; near a wall that of the cell which the walls clip.
+    fn fill(&self, v: u32, buffer: &mut StarBuffer) {
+        let StarBuffer { star, spokes, wall_cell, .. } = buffer;
+        let scale = 1.0 / self.spacing;
+        star.clear();
+        star.lengths.extend(spokes.iter().map(|spoke| spoke.squared.sqrt() * scale));
+        star.is_mirror.resize(spokes.len(), false);
+        let area_scale = scale * scale;
+        let mut k = spokes.len();
+        let mut after = star.lengths[0];
+        for (spoke, &length) in spokes.iter_mut().zip(&star.lengths).rev() {
+            spoke.length = length;
+        }
+        for spoke in &*spokes {
+            k = if k == spokes.len() { 1 } else { k + 1 };
+            let length = after;
+            after = if k == spokes.len() { star.lengths[0] } else { star.lengths[k] };
+            // One division for both the sine and its inverse.
+            let (product, cross) = (length * after, spoke.cross * area_scale);
+            let inverse = 1.0 / (product * cross);
+            let over_product = inverse * cross;
+            star.wedges.push(Wedge {
+                cos: spoke.dot * area_scale * over_product,
+                sin: cross * over_product,
+                cosecant: product * product * inverse,
+            });
+        }
+        if !self.domain.is_periodic {
+            let at = self.mesh.position(v);
+            let wall = at.min(self.domain.size - at).min_element() * scale;
+            let is_clear = spokes.iter().zip(0..).all(|(spoke, k)| spoke.vertex < self.n_live && star.is_covered(k, wall));
+            if !is_clear {
+                let neighbours = spokes.iter().filter(|spoke| spoke.vertex < self.n_live);
+                wall_cell.clip(at, self.domain.size, neighbours.map(|spoke| (spoke.vertex, spoke.way)));
+                wall_cell.fill(star, spokes, scale);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::hilbert_order;
+    use crate::{Rectangle, Space, Torus, measure, warp, white};
+
+    fn spaces() -> [Space; 4] {
+        [
+            Torus::new([0.0, 0.0], [1.0, 1.0]).unwrap().into(),
+            Torus::new([-3.0, 7.0], [30.0, 1.0]).unwrap().into(),
+            Rectangle::new([0.0, 0.0], [1.0, 1.0]).unwrap().into(),
+            Rectangle::new([1e6, 0.0], [0.5, 20.0]).unwrap().into(),
+        ]
+    }
+
+    /// Stars are the only thing that rules see, so what they show must be what an independent measurement finds.
+    #[test]
+    fn the_stars_of_all_points_show_what_is_measured() {
+        for space in spaces() {
+            for (n, is_warped) in [(3, false), (10, false), (300, false), (300, true), (5000, true)] {
+                let mut points = white(space, n, 3).unwrap();
+                if is_warped {
+                    warp(&mut points);
+                }
+                let measures = measure(&points).unwrap();
+                let (domain, positions) = points.normalized();
+                let order = hilbert_order(&positions, domain.size);
+                let sorted = order.iter().map(|&index| positions[index as usize]).collect();
+                let mesh = LiveMesh::new(&domain, sorted, order, domain.hex_spacing(n)).unwrap();
+                let mean = 3f64.sqrt() / 2.0;
+                let (mut area, mut radius, mut distance, mut deviation) = (0.0, 0.0f64, f64::INFINITY, 0.0f64);
+                let mut buffer = StarBuffer::default();
+                for v in 0..n as u32 {
+                    mesh.read(v, Territory::EVERYTHING, &mut buffer).unwrap();
+                    let star = &mut buffer.star;
+                    let capacity = star.measure_cell();
+                    area += capacity;
+                    deviation = deviation.max((capacity / mean - 1.0).abs());
+                    radius = (0..star.n_spokes()).map(|k| star.circumradius(k)).fold(radius, f64::max);
+                    let neighbours = star.lengths.iter().zip(&star.is_mirror).filter(|(_, is_mirror)| !**is_mirror);
+                    distance = neighbours.map(|(length, _)| *length).fold(distance, f64::min);
+                }
+                assert_eq!(buffer.n_flips, 0);
+                let case = format!("{space}, {n}");
+                assert!((area / (n as f64 * mean) - 1.0).abs() < 1e-9, "{case}: {area}");
+                assert!((radius / measures.coverage_radius - 1.0).abs() < 1e-6, "{case}: {radius}");
+                assert!((distance / measures.min_distance - 1.0).abs() < 1e-6, "{case}: {distance}");
+                assert!((deviation - measures.capacity_max_deviation).abs() < 1e-6, "{case}: {deviation}");
+            }
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Cells that the walls of a bounded domain clip: a wall acts as the vertex' own mirror image behind it would.
+
+use glam::DVec2;
+
+use super::stars::{MIRROR, Spoke};
+use crate::star::{Star, Wedge};
+
+/// A cell clipped by walls, everything relative to its vertex: a polygon, counter-clockwise.
+#[derive(Default)]
+pub(super) struct WallCell {
+    sides: Vec<Side>,
+    clipped: Vec<Side>,
+}
+
+/// A side of the cell, and the corner with which it begins.
+#[derive(Clone, Copy)]
+struct Side {
+    corner: DVec2,
+    /// On whose bisector it lies, and the way there.
+    vertex: u32,
+    way: DVec2,
+    /// The unit vector there, also where a vertex on a wall has no way to its image.
+    direction: DVec2,
+}
+
+impl WallCell {
+    /// Cuts the cell of a vertex at `at` out of the domain [0, size], by the bisectors with its neighbours.
+    pub fn clip(&mut self, at: DVec2, size: DVec2, neighbours: impl Iterator<Item = (u32, DVec2)>) {
+        let (low, high) = (-at, size - at);
+        let wall =
+            |corner: DVec2, direction: DVec2, distance: f64| Side { corner, vertex: MIRROR, way: 2.0 * distance * direction, direction };
+        self.sides.clear();
+        self.sides.extend([
+            wall(low, DVec2::NEG_Y, at.y),
+            wall(DVec2::new(high.x, low.y), DVec2::X, high.x),
+            wall(high, DVec2::Y, high.y),
+            wall(DVec2::new(low.x, high.y), DVec2::NEG_X, at.x),
+        ]);
+        for (vertex, way) in neighbours {
+            self.cut(vertex, way);
+        }
+    }
+
+    /// Cuts off what is nearer to a neighbour.
+    fn cut(&mut self, vertex: u32, way: DVec2) {
+        let half = 0.5 * way.length_squared();
+        let excess = |corner: DVec2| corner.dot(way) - half;
+        self.clipped.clear();
+        for (k, &side) in self.sides.iter().enumerate() {
+            let to = self.sides[(k + 1) % self.sides.len()].corner;
+            let (at_start, at_end) = (excess(side.corner), excess(to));
+            let crossing = || side.corner + (to - side.corner) * (at_start / (at_start - at_end));
+            if at_start <= 0.0 {
+                self.clipped.push(side);
+                if at_end > 0.0 {
+                    // The cell goes on along the bisector.
+                    self.clipped.push(Side { corner: crossing(), vertex, way, direction: way.normalize() });
+                }
+            } else if at_end < 0.0 {
+                self.clipped.push(Side { corner: crossing(), ..side });
+            }
+        }
+        std::mem::swap(&mut self.sides, &mut self.clipped);
+    }
+
+    /// The cell as a star, lengths multiplied by `scale`.
+    pub fn fill(&self, star: &mut Star, spokes: &mut Vec<Spoke>, scale: f64) {
+        star.clear();
+        spokes.clear();
+        for (k, side) in self.sides.iter().enumerate() {
+            let after = self.sides[(k + 1) % self.sides.len()].direction;
+            let length = side.way.length() * scale;
+            star.lengths.push(length);
+            star.is_mirror.push(side.vertex == MIRROR);
+            let sin = side.direction.perp_dot(after);
+            star.wedges.push(Wedge { cos: side.direction.dot(after), sin, cosecant: 1.0 / sin });
+            spokes.push(Spoke { vertex: side.vertex, way: side.way, length, ..Spoke::default() });
+        }
+    }
+}
