@@ -1,4 +1,5 @@
-//! The table of what evenly promises, measured on this machine: `cargo xtask bench`, or `cargo xtask bench quick` without the largest runs.
+//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull]`, quick without the largest
+//! runs.
 //!
 //! Speed is a ratio to one run of `delaunator` on the same points in the same process, the best of a few runs each.
 
@@ -7,7 +8,8 @@
 use std::time::{Duration, Instant};
 
 use evenly::{
-    Measures, Mode, Phase, PointSet, ProcrustesParams, Rectangle, Report, RunContext, Space, Torus, measure, procrustes, warp, white,
+    Error, Measures, Mode, Outcome, Phase, PointSet, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext,
+    Space, Torus, measure, procrustes, push_pull, warp, warp_isotropic, white,
 };
 use peak_alloc::PeakAlloc;
 
@@ -17,8 +19,19 @@ static MEMORY: PeakAlloc = PeakAlloc;
 const SEEDS: std::ops::Range<u64> = 0..5;
 
 fn main() {
-    let is_quick = std::env::args().any(|arg| arg == "quick");
+    let args: Vec<String> = std::env::args().collect();
+    let is_wanted = |name: &str| args.iter().any(|arg| arg == name);
+    let (is_quick, is_all) = (is_wanted("quick"), !is_wanted("procrustes") && !is_wanted("push-pull"));
     println!("| run | must reach | measured |\n|---|---|---|");
+    if is_all || is_wanted("procrustes") {
+        of_procrustes(is_quick);
+    }
+    if is_all || is_wanted("push-pull") {
+        of_push_pull(is_quick);
+    }
+}
+
+fn of_procrustes(is_quick: bool) {
     for (n, mode, is_warped, must) in [
         (10_000, Mode::Paper, false, "angle rms <= 12.5, quality >= .93, 90 to 160 iterations, 0 rises"),
         (100_000, Mode::Paper, false, "the same"),
@@ -43,6 +56,27 @@ fn main() {
     growth(sizes);
 }
 
+fn of_push_pull(is_quick: bool) {
+    let with = |min_distance: f64, coverage_radius: f64| PushPullParams {
+        min_distance: Some(min_distance),
+        coverage_radius: Some(coverage_radius),
+        ..PushPullParams::default()
+    };
+    let third_row = PushPullParams::preset(PushPullPreset::Paper3);
+    targets(1024, 8, false, &with(0.80, 0.63), "all converge, mean distance .847 +- .005, bond order .487 +- .03");
+    targets(1024, 8, false, &with(0.90, 0.65), "all converge, mean distance .905 +- .005, bond order .499 +- .03");
+    targets(1024, 8, false, &third_row, "all converge, beta <= .675, 0 obtuse triangles");
+    targets(1000, 8, true, &with(0.90, 0.63), "all converge, angles within 45.5 and 89");
+    targets(10_000, 3, true, &with(0.90, 0.63), "the same");
+    let sizes = if is_quick { &[(10_000, 22), (100_000, 22)][..] } else { &[(10_000, 22), (100_000, 22), (1_000_000, 14)] };
+    let mut visits = Vec::new();
+    for &(n, must) in sizes {
+        visits.push((n, push_pull_speed(n, must)));
+    }
+    let shown: Vec<String> = visits.iter().map(|(n, visits)| format!("{n}: {visits:.1}")).collect();
+    println!("| Push-Pull {{0.85, 0.67}}, visits a point | within 30 % | {} |", shown.join(", "));
+}
+
 fn torus() -> Space {
     Torus::new([0.0, 0.0], [1.0, 1.0]).unwrap().into()
 }
@@ -57,16 +91,19 @@ struct Run {
     total: Duration,
 }
 
-fn run(mut points: PointSet, mode: Mode, is_warped: bool) -> Run {
+fn run(points: PointSet, mode: Mode, is_warped: bool) -> Run {
+    let params = ProcrustesParams { mode, ..ProcrustesParams::default() };
+    let warp = if is_warped { warp } else { |_: &mut PointSet| () };
+    timed(points, warp, |points, context| procrustes(points, &params, context))
+}
+
+fn timed(mut points: PointSet, warp: fn(&mut PointSet), optimize: impl Fn(&mut PointSet, &mut RunContext) -> Result<Report, Error>) -> Run {
     let start = Instant::now();
-    if is_warped {
-        warp(&mut points);
-    }
+    warp(&mut points);
     let warp = start.elapsed();
     let mut marks = Vec::new();
-    let params = ProcrustesParams { mode, ..ProcrustesParams::default() };
     let mut context = RunContext::default().on_progress(|progress| marks.push((progress, Instant::now())));
-    let report = procrustes(&mut points, &params, &mut context).unwrap();
+    let report = optimize(&mut points, &mut context).unwrap();
     drop(context);
     let total = start.elapsed();
     let first = |phase: Phase| marks.iter().find(|(progress, _)| progress.phase == phase).unwrap().1;
@@ -174,6 +211,65 @@ fn speed(n: usize) {
     let spacing = 0.86 * start.hex_spacing();
     let poisson = best(1, || fast_poisson::Poisson2D::new().with_dimensions([1.0, 1.0], spacing).generate().len());
     println!("| fast_poisson with about as many points, n = {n} | - | {:.2} |", ratio(poisson));
+}
+
+/// Whether targets are reached, and how.
+fn targets(n: usize, n_seeds: u64, is_warped: bool, params: &PushPullParams, must: &str) {
+    let runs: Vec<(Measures, Report)> = (0..n_seeds)
+        .map(|seed| {
+            let warp = if is_warped { warp_isotropic } else { |_: &mut PointSet| () };
+            let run = timed(white(torus(), n, seed).unwrap(), warp, |points, context| push_pull(points, params, context));
+            (measure(&run.points).unwrap(), run.report)
+        })
+        .collect();
+    let reached = runs.iter().filter(|(m, report)| report.outcome == Outcome::Converged && params.unmet(m).is_empty()).count();
+    let mean = |value: fn(&Measures) -> f64| runs.iter().map(|(m, _)| value(m)).sum::<f64>() / runs.len() as f64;
+    let most = |value: fn(&Measures) -> f64| runs.iter().map(|(m, _)| value(m)).fold(f64::MIN, f64::max);
+    let visits = runs.iter().map(|(_, report)| report.visits).sum::<usize>() / runs.len();
+    println!(
+        "| Push-Pull {{{}, {}}}, tolerance {}, relaxation {}, {}, n = {n} | {must} | {reached} of {n_seeds} converge, mean distance {:.3}, bond order (psa) \
+         {:.3}, beta <= {:.3}, angles {:.1} to {:.1}, {:.0} visits a point |",
+        params.min_distance.unwrap(),
+        params.coverage_radius.unwrap(),
+        params.capacity_tolerance.unwrap(),
+        params.relaxation,
+        if is_warped { "warped white noise" } else { "white noise" },
+        mean(|m| m.mean_distance),
+        mean(|m| m.bond_order_psa),
+        most(|m| m.beta),
+        -most(|m| -m.min_angle_deg),
+        most(|m| m.max_angle_deg),
+        visits as f64 / n as f64,
+    );
+}
+
+/// Returns the visits a point.
+fn push_pull_speed(n: usize, must: u32) -> f64 {
+    let start = white(torus(), n, 1).unwrap();
+    let params = PushPullParams::default();
+    let on = |n_threads: usize| {
+        let once = || timed(start.clone(), warp_isotropic, |points, context| push_pull(points, &params, context));
+        (0..3).map(|_| pool(n_threads).install(once)).min_by_key(|run| run.total).unwrap()
+    };
+    let before = MEMORY.current_usage();
+    MEMORY.reset_peak_usage();
+    let one = on(1);
+    let peak = (MEMORY.peak_usage() - before) as f64 / n as f64;
+    let unit = delaunator(&start).as_secs_f64();
+    let two = on(2);
+    println!(
+        "| Push-Pull {{0.85, 0.67}}, whole run from white noise, one thread, n = {n} | <= {must} delaunator runs | {:.1} ({:.2} s), {} passes |",
+        one.total.as_secs_f64() / unit,
+        one.total.as_secs_f64(),
+        one.report.iterations,
+    );
+    println!(
+        "| two threads against one, n = {n} | >= 1.6 at 1M, the same bits | {:.2}, {} |",
+        one.total.as_secs_f64() / two.total.as_secs_f64(),
+        if one.points == two.points { "the same bits" } else { "DIFFERENT BITS" }
+    );
+    println!("| peak memory above the input, n = {n} | <= 500 bytes a point at 1M | {peak:.0} |");
+    one.report.visits as f64 / n as f64
 }
 
 fn growth(sizes: &[usize]) {

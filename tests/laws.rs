@@ -130,6 +130,26 @@ fn the_energy_never_ends_higher_and_never_rises_in_plain_steps() {
     }
 }
 
+/// Found by random runs: a visit that is put off halfway has moved some points, even if it then finds nothing to do.
+#[test]
+fn a_pass_that_leaves_dirt_is_not_the_last() {
+    let space = rectangle([-1514159038.9789557, -407403210.8645137], [55471.9795127921, 5547197.95127921]);
+    let mut points = white(space, 1000, 125440).unwrap();
+    let params = PushPullParams { min_distance: None, coverage_radius: Some(0.885), seed: 125440, ..PushPullParams::default() };
+    push_pull(&mut points, &params, &mut RunContext::default()).unwrap();
+    assert_eq!(params.unmet(&measure(&points).unwrap()), []);
+}
+
+/// Found by random runs: of three points of which two share a place, all lie on one line.
+#[test]
+fn points_that_end_in_one_place_are_moved_apart() {
+    let space = rectangle([77665920.29407544, -32746307.32591727], [785.8978272169741, 78589.78272169741]);
+    let mut points = white(space, 3, 378996).unwrap();
+    let params = PushPullParams { min_distance: Some(0.476), coverage_radius: None, seed: 378996, ..PushPullParams::default() };
+    push_pull(&mut points, &params, &mut RunContext::default()).unwrap();
+    assert_eq!(n_distinct(&points), 3);
+}
+
 #[test]
 fn fewer_than_three_points_come_back_as_they_are() {
     for method in Method::all() {

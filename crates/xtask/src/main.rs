@@ -5,7 +5,8 @@ use std::process::{Command, ExitCode};
 const USAGE: &str = "\
 usage: cargo xtask CHORE
   test           all tests: units, laws, numbers, the command line, the examples in the documentation
-  bench [quick]  the table of speed and quality, measured on this machine
+  bench [quick] [procrustes | push-pull]
+                 the table of speed and quality, measured on this machine
   gallery        draws the pictures of the README anew";
 
 fn main() -> ExitCode {
@@ -13,8 +14,7 @@ fn main() -> ExitCode {
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     let is_done = match args[..] {
         ["test"] => cargo(&["test", "--workspace", "--locked"]),
-        ["bench"] => cargo(&["bench", "--package", "evenly", "--bench", "table"]),
-        ["bench", "quick"] => cargo(&["bench", "--package", "evenly", "--bench", "table", "--", "quick"]),
+        ["bench", ref wanted @ ..] => cargo(&[&["bench", "--package", "evenly", "--bench", "table", "--"], wanted].concat()),
         ["gallery"] => gallery(),
         _ => {
             eprintln!("{USAGE}");

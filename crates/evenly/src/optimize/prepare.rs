@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::error::Error;
-use crate::points::{PointSet, separate};
+use crate::points::{PointSet, make_distinct, separate};
 use crate::run::{Phase, Report, RunContext};
 use crate::space::Domain;
 
@@ -43,8 +43,8 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
 pub(super) fn keep_distinct(points: &mut PointSet) {
     let (domain, mut positions) = points.normalized();
     let spacing = domain.hex_spacing(positions.len());
-    let separated = separate(&domain, &mut positions, spacing);
-    if separated.coincident_points > 0 {
+    let (_, coincident_points) = make_distinct(&domain, &mut positions, spacing);
+    if coincident_points > 0 {
         let all: Vec<u32> = (0..positions.len() as u32).collect();
         points.place(&domain, &all, &positions);
     }

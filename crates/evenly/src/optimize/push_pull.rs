@@ -46,7 +46,8 @@ use crate::triangulation::LiveMesh;
 /// Where `coverage_radius` is below 0.707 of `min_distance`, no triangle is obtuse.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PushPullParams {
-    /// No two points shall be nearer than this (the paper's r_f, "conflict radius"); in (0, 1]. More makes points more regular.
+    /// No two points shall be nearer than this (the paper's r_f, "conflict radius"); in (0, 1]. More makes points more regular. Without it
+    /// 0.001 is kept.
     pub min_distance: Option<f64>,
     /// No place shall be farther from the nearest point than this (r_c); 0.577 at least, that of the hexagonal lattice.
     pub coverage_radius: Option<f64>,

@@ -14,6 +14,6 @@ pub use jittered::jittered;
 pub(crate) use order::hilbert_order;
 pub use point_set::{MAX_POINTS, PointSet};
 pub(crate) use random::Random;
-pub(crate) use separate::separate;
+pub(crate) use separate::{make_distinct, separate};
 pub use warp::{warp, warp_isotropic};
 pub use white::white;

@@ -22,13 +22,20 @@ const JITTER: f64 = 1e-3;
 ///
 /// `spacing` is the hexagonal spacing in normalised units. All other points stay where they are.
 pub(crate) fn separate(domain: &Domain, positions: &mut [DVec2], spacing: f64) -> Separated {
-    let mut random = Random::new(0, 2);
     let was_collinear = !domain.is_periodic && are_collinear(positions);
     if was_collinear {
+        let mut random = Random::new(0, 6);
         for p in &mut *positions {
             *p = jitter(domain, *p, JITTER * spacing, &mut random);
         }
     }
+    let (order, coincident_points) = make_distinct(domain, positions, spacing);
+    Separated { order, coincident_points, was_collinear }
+}
+
+/// Gives every point a place of its own; returns the Hilbert order, and how many points had none.
+pub(crate) fn make_distinct(domain: &Domain, positions: &mut [DVec2], spacing: f64) -> (Vec<u32>, usize) {
+    let mut random = Random::new(0, 2);
     let mut coincident_points = None;
     let mut amount = JITTER * spacing;
     loop {
@@ -36,7 +43,7 @@ pub(crate) fn separate(domain: &Domain, positions: &mut [DVec2], spacing: f64) -
         let doubles = coincident(positions, &order);
         let coincident_points = *coincident_points.get_or_insert(doubles.len());
         if doubles.is_empty() {
-            return Separated { order, coincident_points, was_collinear };
+            return (order, coincident_points);
         }
         for index in doubles {
             positions[index] = jitter(domain, positions[index], amount, &mut random);

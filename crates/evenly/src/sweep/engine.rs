@@ -39,7 +39,7 @@ pub(crate) struct Plan {
 /// How a sweep has ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// A pass found nothing to do, and all of the mesh is Delaunay.
+    /// A pass found nothing to do and left no dirt, and all of the mesh is Delaunay.
     Converged,
     PassLimit,
     Cancelled,
@@ -120,7 +120,8 @@ impl Sweep {
             self.unrest.push(work.unrest / self.mesh.n_points() as f64);
             self.keep_best(&work, report.iterations);
             self.show(run, report);
-            let is_still = work.n_unstable == 0;
+            // Flips, and visits put off halfway, leave dirt that the pass has not seen.
+            let is_still = work.n_unstable == 0 && (0..self.mesh.n_points() as u32).all(|v| !self.mesh.is_dirty(v));
             let n_late_flips = if is_still { self.mesh.legalize() } else { 0 };
             report.flips += n_late_flips;
             let was_torn = self.mesh.mend()?;

@@ -6,6 +6,8 @@ use crate::star::{Rule, Star};
 
 /// How much beyond the wanted distance a neighbour is pushed: nothing is then left to rounding.
 const OVERSHOOT: f64 = 1e-3;
+/// What is kept without a wanted distance, so that no two points ever meet.
+const LEAST_DISTANCE: f64 = 1e-3;
 /// How much below the wanted radius a triangle is pulled.
 const UNDERSHOOT: f64 = 1e-4;
 /// Sides shorter than this part of a cell's longest, walls aside, do next to nothing for its area: the neighbours behind them stay.
@@ -19,7 +21,7 @@ impl Rule for PushPull {
     fn visit(&self, star: &mut Star) -> bool {
         let PushPullParams { min_distance, coverage_radius, capacity_tolerance, relaxation, .. } = self.0;
         let has_pulled = coverage_radius.is_some_and(|radius| cover(star, radius, relaxation));
-        let has_pushed = min_distance.is_some_and(|distance| push_away(star, distance, relaxation));
+        let has_pushed = push_away(star, min_distance.unwrap_or(LEAST_DISTANCE), relaxation);
         let has_pressed = capacity_tolerance.is_some_and(|tolerance| equalize(star, tolerance, relaxation));
         has_pulled || has_pushed || has_pressed
     }
