@@ -33,7 +33,8 @@ fn gallery() -> bool {
     ];
     let evenly = ["run", "--release", "--package", "evenly-cli", "--"];
     let is_drawn = pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));
-    is_drawn && cargo(&["run", "--release", "--package", "evenly-io", "--example", "01_energy", "gallery/energy.svg"])
+    let mut examples = [("01_energy", "gallery/energy.svg"), ("02_methods", "gallery/methods.svg")].into_iter();
+    is_drawn && examples.all(|(name, path)| cargo(&["run", "--release", "--package", "evenly-io", "--example", name, path]))
 }
 
 fn cargo(args: &[&str]) -> bool {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::stars::{MIRROR, Spoke};
+use super::spoke::{MIRROR, Spoke};
 use crate::star::{Star, Wedge};
 
 /// A cell clipped by walls, everything relative to its vertex: a polygon, counter-clockwise.

@@ -1,30 +1,64 @@
 //! Which targets are known to be reached.
 
-use super::PushPullParams;
+/// A coverage radius, and the largest smallest distances with which runs of 1,000 and of 10,000 points converge: for a capacity tolerance
+/// from 0.0386, and for one from 0.1 or none. 0 where none is known to.
+struct Row {
+    radius: f64,
+    strict: f64,
+    loose: f64,
+}
 
-/// Coverage radii, and the largest smallest distances with which runs on a torus of 1,000 and of 10,000 points converge: for capacity
-/// tolerances from 0.0386, and from 0.1 or without one. Between rows the tougher one counts.
-const KNOWN: [(f64, f64, f64); 8] = [
-    (0.61, 0.00, 0.90),
-    (0.62, 0.91, 0.92),
-    (0.63, 0.92, 0.92),
-    (0.64, 0.92, 0.93),
-    (0.65, 0.93, 0.94),
-    (0.67, 0.94, 0.95),
-    (0.70, 0.94, 0.95),
-    (0.75, 0.94, 0.96),
+const ON_TORUS: [Row; 8] = [
+    Row { radius: 0.61, strict: 0.00, loose: 0.90 },
+    Row { radius: 0.62, strict: 0.91, loose: 0.92 },
+    Row { radius: 0.63, strict: 0.92, loose: 0.92 },
+    Row { radius: 0.64, strict: 0.92, loose: 0.93 },
+    Row { radius: 0.65, strict: 0.93, loose: 0.94 },
+    Row { radius: 0.67, strict: 0.94, loose: 0.95 },
+    Row { radius: 0.70, strict: 0.94, loose: 0.95 },
+    Row { radius: 0.75, strict: 0.94, loose: 0.96 },
 ];
 
-/// The nearest targets that are known to be reached, where those of `params` are tougher.
-pub(super) fn nearest_known(params: &PushPullParams) -> Option<(f64, f64)> {
-    let distance = params.min_distance.unwrap_or(0.0);
-    let radius = params.coverage_radius.unwrap_or(f64::INFINITY);
-    let is_loose = params.capacity_tolerance.is_none_or(|tolerance| tolerance >= 0.1);
-    let rows = KNOWN.map(|(radius, strict, loose)| (radius, if is_loose { loose } else { strict }));
-    let reached = |(row_radius, most): (f64, f64)| (most > 0.0).then(|| (distance.min(most), radius.max(row_radius)));
-    let way = |&(near_distance, near_radius): &(f64, f64)| {
-        (distance - near_distance) + if radius.is_finite() { near_radius - radius } else { 0.0 }
+/// Along a wall cells of equal area leave larger gaps.
+const IN_RECTANGLE: [Row; 4] = [
+    Row { radius: 0.64, strict: 0.00, loose: 0.90 },
+    Row { radius: 0.65, strict: 0.91, loose: 0.92 },
+    Row { radius: 0.67, strict: 0.92, loose: 0.92 },
+    Row { radius: 0.75, strict: 0.92, loose: 0.92 },
+];
+
+/// The nearest distance and radius that are known to be reached, where these are tougher.
+pub(super) fn nearest_known(distance: Option<f64>, radius: Option<f64>, tolerance: Option<f64>, is_periodic: bool) -> Option<(f64, f64)> {
+    let (distance, radius) = (distance.unwrap_or(0.0), radius.unwrap_or(f64::INFINITY));
+    let is_loose = tolerance.is_none_or(|tolerance| tolerance >= 0.1);
+    let rows: &[Row] = if is_periodic { &ON_TORUS } else { &IN_RECTANGLE };
+    let known = rows.iter().map(|row| (row.radius, if is_loose { row.loose } else { row.strict })).filter(|&(_, most)| most > 0.0);
+    // A row stands for its radius and all above, and its distance and all below.
+    let in_row = |(row_radius, most): (f64, f64)| (distance.min(most), radius.max(row_radius));
+    let relief = |&(near_distance, near_radius): &(f64, f64)| {
+        let of_radius = if radius.is_finite() { near_radius - radius } else { 0.0 };
+        distance - near_distance + of_radius
     };
-    let nearest = rows.into_iter().filter_map(reached).min_by(|a, b| way(a).total_cmp(&way(b)))?;
-    (way(&nearest) > 0.0).then_some(nearest)
+    let nearest = known.map(in_row).min_by(|a, b| relief(a).total_cmp(&relief(b)))?;
+    (relief(&nearest) > 0.0).then_some(nearest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn nearest(distance: f64, radius: Option<f64>, tolerance: Option<f64>) -> Option<(f64, f64)> {
+        nearest_known(Some(distance), radius, tolerance, true)
+    }
+
+    #[test]
+    fn what_is_known_needs_no_relief_and_what_is_not_the_least() {
+        assert_eq!(nearest(0.85, Some(0.67), Some(0.0386)), None);
+        assert_eq!(nearest(0.92, Some(0.63), Some(0.05)), None);
+        assert_eq!(nearest(0.92, Some(0.62), Some(0.1)), None);
+        assert_eq!(nearest(0.92, Some(0.62), Some(0.0386)), Some((0.91, 0.62)));
+        assert_eq!(nearest(0.80, Some(0.60), Some(0.0386)), Some((0.80, 0.62)));
+        assert_eq!(nearest(0.95, Some(0.66), None), Some((0.94, 0.66)));
+        assert_eq!(nearest(0.97, None, Some(0.0386)), Some((0.94, f64::INFINITY)));
+    }
 }

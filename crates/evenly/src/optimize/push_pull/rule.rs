@@ -1,7 +1,6 @@
 //! The three steps of a visit, on a copy of the star: pull what is too far, push what is too near, and press or suck where the cell is
 //! too small or too large. All move neighbours along their spokes, so the angles of the star stay true.
 
-use super::PushPullParams;
 use crate::star::{Rule, Star};
 
 /// How much beyond the wanted distance a neighbour is pushed: nothing is then left to rounding.
@@ -15,11 +14,17 @@ const SHORT: f64 = 0.25;
 /// The area of a cell of the hexagonal lattice with spacing 1: the mean capacity.
 const MEAN_CAPACITY: f64 = 0.866_025_403_784_438_6;
 
-pub(super) struct PushPull(pub PushPullParams);
+/// The targets, relative to the wanted spacing and the mean capacity, and the part of each move that is made.
+pub(super) struct PushPull {
+    pub min_distance: Option<f64>,
+    pub coverage_radius: Option<f64>,
+    pub capacity_tolerance: Option<f64>,
+    pub relaxation: f64,
+}
 
 impl Rule for PushPull {
     fn visit(&self, star: &mut Star) -> bool {
-        let PushPullParams { min_distance, coverage_radius, capacity_tolerance, relaxation, .. } = self.0;
+        let &Self { min_distance, coverage_radius, capacity_tolerance, relaxation } = self;
         let has_pulled = coverage_radius.is_some_and(|radius| cover(star, radius, relaxation));
         let has_pushed = push_away(star, min_distance.unwrap_or(LEAST_DISTANCE), relaxation);
         let has_pressed = capacity_tolerance.is_some_and(|tolerance| equalize(star, tolerance, relaxation));

@@ -1,0 +1,20 @@
+//! [`Spoke`]: what a vertex of the mesh sees of a neighbour.
+
+use glam::DVec2;
+
+/// A half-edge from the vertex at hand to a neighbour, and the wedge between it and the next one, counter-clockwise.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Spoke {
+    /// A neighbour, or [`MIRROR`].
+    pub vertex: u32,
+    pub(super) half_edge: u32,
+    pub way: DVec2,
+    /// In spacings; only in a star.
+    pub length: f64,
+    pub(super) squared: f64,
+    pub(super) dot: f64,
+    pub(super) cross: f64,
+}
+
+/// In place of a neighbour: the vertex' own image behind a wall.
+pub(crate) const MIRROR: u32 = u32::MAX;
