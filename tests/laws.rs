@@ -140,6 +140,21 @@ fn a_pass_that_leaves_dirt_is_not_the_last() {
     assert_eq!(params.unmet(&measure(&points).unwrap()), []);
 }
 
+/// Found by random runs: in a row of points, pressing took back what pushing did.
+#[test]
+fn steps_that_undo_each_other_are_not_taken_for_rest() {
+    let mut points = jittered(rectangle([0.0, 0.0], [8.631954572017325, 86.31954572017324]), 16, 583627).unwrap();
+    let params = PushPullParams {
+        min_distance: Some(0.914),
+        coverage_radius: Some(0.888),
+        capacity_tolerance: Some(0.015),
+        seed: 583627,
+        ..PushPullParams::default()
+    };
+    let report = push_pull(&mut points, &params, &mut RunContext::default()).unwrap();
+    assert_eq!(report.outcome, Outcome::IterationLimit);
+}
+
 /// Found by random runs: of three points of which two share a place, all lie on one line.
 #[test]
 fn points_that_end_in_one_place_are_moved_apart() {

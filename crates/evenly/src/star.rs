@@ -31,7 +31,7 @@ pub(crate) struct Star {
 
 /// A local method: what is wrong in a star, and what would mend it.
 pub(crate) trait Rule: Sync {
-    /// Leaves new `lengths`, or `weights`; false where nothing is to be done.
+    /// Leaves new `lengths`, or `weights`; false where all is as it should be, and nothing is to be done.
     fn visit(&self, star: &mut Star) -> bool;
 }
 

@@ -61,7 +61,8 @@ pub(super) fn ask(mesh: &LiveMesh, rule: &impl Rule, v: u32, territory: Territor
     if !rule.visit(star) {
         return Ok(0.0);
     }
-    let mut unrest = 0.0;
+    // What is wrong is unrest, even where nothing can be moved: steps of a rule may undo each other.
+    let mut unrest = STILL * STILL;
     let mut own: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
     for (spoke, length) in spokes.iter().zip(&star.lengths) {
         let change = (length - spoke.length).clamp(-LONGEST, LONGEST);
