@@ -167,11 +167,13 @@ fn push_pull_reaches_its_targets_and_reports_its_passes() {
         ("--coverage-radius 0.7 --capacity-tolerance off", "min_distance capacity_tolerance"),
         ("--capacity-tolerance 0.05", "min_distance coverage_radius"),
         ("--preset balanced --min-distance off", "min_distance"),
+        ("--capacity-tolerance off", "capacity_tolerance"),
         ("--schedule summed", ""),
     ] {
         for space in ["torus --size 3,1", "rect --size 2,2 --origin -1,7"] {
             let line = format!("generate -n 700 --method push-pull --space {space} {flags} -q -o a.txt --force --json");
             let record = json(&shell.ok(&line));
+            assert_eq!(record["unmet"], json("[]"), "{line}");
             let (run, measures, parameters) = (&record["run"], &record["measures"], &record["parameters"]);
             assert_eq!(run["outcome"], "converged", "{line}");
             for (name, measure, sign) in [
@@ -197,12 +199,15 @@ fn push_pull_reaches_its_targets_and_reports_its_passes() {
 #[test]
 fn targets_that_are_not_reached_are_told_with_what_was_measured() {
     let shell = Shell::new();
-    let output = shell.run("generate -n 500 --method push-pull --min-distance 0.97 --coverage-radius 0.6 -i 40 -o a.txt");
+    let output = shell.run("generate -n 500 --method push-pull --min-distance 0.97 --coverage-radius 0.6 -i 40 -o a.txt --report run.json");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(1));
     assert!(said.contains("the nearest that are: min distance 0.91 with coverage radius 0.62"), "{said}");
     assert!(said.contains("not converged in 40 passes") && said.contains("not reached: min distance is 0."), "{said}");
     assert_eq!(shell.read("a.txt").lines().filter(|line| !line.starts_with('#')).count(), 500);
+    let unmet = &json(&shell.read("run.json"))["unmet"];
+    assert_eq!((unmet[0]["name"].as_str(), unmet[0]["wanted"].as_f64()), (Some("min_distance"), Some(0.97)));
+    assert!(unmet[0]["measured"].as_f64().unwrap() > 0.5);
 }
 
 #[test]
@@ -282,18 +287,21 @@ fn bad_input_gets_one_line_and_no_file() {
         ("generate -n 10 -o o.txt --size -1,1", "-1 x 1"),
         ("generate -n 10 -o o.txt --size 1", "two numbers"),
         ("generate -n 10 -o o.txt --origin inf,0", "finite"),
-        ("generate -n 10 -o o.txt --side 0", "side is 0"),
+        ("generate -n 10 -o o.txt --side 0", "--side is 0"),
         ("generate -n 10 -o o.txt --tolerance -1", "tolerance"),
-        ("generate -n 10 -o o.txt -i 0", "max_iterations is 0"),
+        ("generate -n 10 -o o.txt -i 0", "--iterations is 0"),
         ("generate -n 10 -o o.txt --method nonsense", "nonsense"),
-        ("generate -n 10 -o o.txt --method push-pull --min-distance 1.1", "min_distance is 1.1"),
-        ("generate -n 10 -o o.txt --method push-pull --min-distance NaN", "min_distance is NaN"),
+        ("generate -n 10 -o o.txt --method push-pull --min-distance 1.1", "--min-distance is 1.1"),
+        ("generate -n 10 -o o.txt --method push-pull --min-distance NaN", "--min-distance is NaN"),
         ("generate -n 10 -o o.txt --method push-pull --min-distance some", "a number, or off"),
-        ("generate -n 10 -o o.txt --method push-pull --coverage-radius 0.5", "coverage_radius is 0.5"),
-        ("generate -n 10 -o o.txt --method push-pull --capacity-tolerance -0.1", "capacity_tolerance is -0.1"),
-        ("generate -n 10 -o o.txt --method push-pull --capacity-tolerance off", "there is no target"),
-        ("generate -n 10 -o o.txt --method push-pull --relaxation 2", "relaxation is 2"),
-        ("generate -n 10 -o o.txt --method push-pull -i 0", "max_passes is 0"),
+        ("generate -n 10 -o o.txt --method push-pull --coverage-radius 0.5", "--coverage-radius is 0.5"),
+        ("generate -n 10 -o o.txt --method push-pull --capacity-tolerance -0.1", "--capacity-tolerance is -0.1"),
+        (
+            "generate -n 10 -o o.txt --method push-pull --preset fast --min-distance off --coverage-radius off --capacity-tolerance off",
+            "there is no target",
+        ),
+        ("generate -n 10 -o o.txt --method push-pull --relaxation 2", "--relaxation is 2"),
+        ("generate -n 10 -o o.txt --method push-pull -i 0", "--iterations is 0"),
         ("generate -n 10 -o o.txt --method push-pull --preset nonsense", "nonsense"),
         ("generate -n 10 -o o.txt --method push-pull --side 1", "--side is for --method procrustes"),
         ("generate -n 10 -o o.txt --preset tough", "--preset is for --method push-pull"),

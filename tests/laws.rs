@@ -411,6 +411,17 @@ fn targets_out_of_reach_are_warned_of_and_told() {
     assert!(unmet.iter().all(|target| target.measured.is_finite()));
 }
 
+/// The best state is never worse than the start, and out of reach not worse than what is in reach.
+#[test]
+fn what_cannot_be_reached_is_approached() {
+    let start = hexagonal(torus([0.0, 0.0], [1.0, 3f64.sqrt() / 2.0]), 30 * 30).unwrap();
+    let params = PushPullParams { min_distance: Some(1.0), coverage_radius: None, ..PushPullParams::default() };
+    for (mut points, least) in [(start, 0.999), (white(spaces()[0], 900, 1).unwrap(), 0.9)] {
+        push_pull(&mut points, &PushPullParams { max_passes: Some(800), ..params }, &mut RunContext::default()).unwrap();
+        assert!(measure(&points).unwrap().min_distance >= least);
+    }
+}
+
 #[test]
 fn starts_have_exactly_n_distinct_points_inside() {
     for space in spaces() {

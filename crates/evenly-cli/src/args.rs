@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use evenly::{MAX_POINTS, Mode, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Schedule, Space, Torus};
+use evenly::{Error, MAX_POINTS, Mode, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Schedule, Space, Torus};
 use evenly_io::{Draw, Format};
 
 use crate::optimizer::Optimizer;
@@ -48,7 +48,7 @@ pub enum Command {
 #[command(after_help = "Example:\n  evenly generate -n 10000 --method procrustes -o points.svg --draw valence,points")]
 pub struct Generate {
     /// How many points, exactly: 1 to 40 million
-    #[arg(short, long, value_name = "N", value_parser = parse_count)]
+    #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_points: usize,
     /// How they are made: by an optimiser, or as one of its starts
     #[arg(long, value_enum, default_value = "procrustes")]
@@ -57,7 +57,7 @@ pub struct Generate {
     #[arg(long, value_enum, default_value = "white")]
     pub start: Start,
     /// The same seed gives the same points
-    #[arg(short, long, value_name = "SEED", default_value_t = 0)]
+    #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     #[command(flatten)]
     pub space: SpaceArgs,
@@ -76,7 +76,7 @@ pub struct Optimize {
     #[arg(long, value_enum, default_value = "procrustes")]
     pub method: OptimizeMethod,
     /// The same seed gives the same points; Procrustes analysis uses none
-    #[arg(short, long, value_name = "SEED", default_value_t = 0)]
+    #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     #[command(flatten)]
     pub space: SpaceArgs,
@@ -130,7 +130,7 @@ pub struct OptimizerArgs {
     #[arg(long)]
     pub no_warp: bool,
     /// Stop after so many iterations or passes in any case [default: 500; push-pull: 2000, more for more than 1000 points]
-    #[arg(short, long, value_name = "I")]
+    #[arg(short, long, value_name = "I", allow_negative_numbers = true)]
     iterations: Option<usize>,
     #[command(flatten)]
     procrustes: ProcrustesArgs,
@@ -164,11 +164,11 @@ struct PushPullArgs {
     /// No place farther from a point than this many hexagonal spacings, 0.577 at least; or off
     #[arg(long, value_name = "R", value_parser = parse_target, allow_negative_numbers = true)]
     coverage_radius: Option<Target>,
-    /// No Voronoi cell's area farther from the mean than this part of it; or off. Without a preset the lengths that are not given are off, and
-    /// this is 0.0386
+    /// No Voronoi cell's area farther from the mean than this part of it; or off. Where a target is given without a preset, lengths that are not
+    /// given are off, and this is 0.0386
     #[arg(long, value_name = "T", value_parser = parse_target, allow_negative_numbers = true)]
     capacity_tolerance: Option<Target>,
-    /// The part of each move that is made; 1.2 reaches tougher targets [default: the preset's, 1; summed: 0.5]
+    /// The part of each move that is made; 1.2 reaches tougher targets, in turn [default: the preset's, 1; summed: 0.5]
     #[arg(long, value_name = "W", allow_negative_numbers = true)]
     relaxation: Option<f64>,
     /// in-turn: points move at each visit; summed: at the end of a pass, the paper's parallel variant [default: in-turn]
@@ -181,6 +181,7 @@ struct PushPullArgs {
 pub struct Target(Option<f64>);
 
 #[derive(Args)]
+#[command(next_help_heading = "Output")]
 pub struct RunArgs {
     /// Where the points go: .txt .csv .npy, or as a figure .svg .png; - is stdout
     #[arg(short, long, value_name = "OUT")]
@@ -278,11 +279,11 @@ enum PresetArg {
     Balanced,
     /// 0.90, 0.65, 0.0386: the triangles' angles are 43.8 to 92.5 degrees
     Tough,
-    /// 0.80, 0.63, 0.0386: row 1 of the paper's Table 1
+    /// 0.80, 0.63, 0.0386: row 1 of the paper's Table 1; on a torus
     Paper1,
     /// 0.90, 0.65, 0.0386: row 2
     Paper2,
-    /// 0.92, 0.62, 0.1, relaxation 1.2: row 3; no triangle is obtuse
+    /// 0.92, 0.62, 0.1, relaxation 1.2: row 3, no triangle is obtuse; on a torus
     Paper3,
 }
 
@@ -310,7 +311,7 @@ impl From<DrawArg> for Draw {
 }
 
 impl SpaceArgs {
-    pub fn space(&self) -> Result<Space, evenly::Error> {
+    pub fn space(&self) -> Result<Space, Error> {
         Ok(match self.space {
             SpaceKind::Torus => Torus::new(self.origin, self.size)?.into(),
             SpaceKind::Rect => Rectangle::new(self.origin, self.size)?.into(),
@@ -327,7 +328,7 @@ impl OptimizerArgs {
         set(&mut params.side, side);
         set(&mut params.tolerance, tolerance);
         set(&mut params.max_iterations, self.iterations);
-        params.validate()?;
+        params.validate().map_err(by_flag)?;
         Ok(Optimizer::Procrustes(params))
     }
 
@@ -335,7 +336,8 @@ impl OptimizerArgs {
         refuse(self.procrustes.given(), "procrustes")?;
         let PushPullArgs { preset, min_distance, coverage_radius, capacity_tolerance, relaxation, schedule } = self.push_pull;
         let mut params = PushPullParams::preset(preset.map(Into::into).unwrap_or_default());
-        let is_picked = preset.is_none() && (min_distance.is_some() || coverage_radius.is_some() || capacity_tolerance.is_some());
+        let given = [min_distance, coverage_radius, capacity_tolerance].into_iter().flatten();
+        let is_picked = preset.is_none() && { given }.any(|target| target.0.is_some());
         if is_picked {
             (params.min_distance, params.coverage_radius) = (None, None);
         }
@@ -348,7 +350,7 @@ impl OptimizerArgs {
         set(&mut params.relaxation, relaxation);
         params.max_passes = self.iterations;
         params.seed = seed;
-        params.validate()?;
+        params.validate().map_err(by_flag)?;
         Ok(Optimizer::PushPull(params))
     }
 
@@ -380,6 +382,17 @@ impl PushPullArgs {
             ("schedule", self.schedule.is_some()),
         ];
         flags.into_iter().find(|&(_, is_given)| is_given).map(|(name, _)| name)
+    }
+}
+
+/// The same error, with the name that the user knows.
+fn by_flag(error: Error) -> anyhow::Error {
+    match error {
+        Error::InvalidParameter { name, value, expected } => {
+            let flag = if name.starts_with("max_") { "iterations".to_owned() } else { name.replace('_', "-") };
+            anyhow!("--{flag} is {value}; it must be {expected}")
+        }
+        other => other.into(),
     }
 }
 

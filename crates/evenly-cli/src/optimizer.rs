@@ -1,7 +1,8 @@
 //! The optimisers behind one face: which one runs, with which parameters, and what it was asked to reach.
 
 use evenly::{
-    Error, Measures, PointSet, ProcrustesParams, PushPullParams, Report, RunContext, procrustes, push_pull, warp, warp_isotropic,
+    Error, Measures, PointSet, ProcrustesParams, PushPullParams, Report, RunContext, Space, UnmetTarget, procrustes, push_pull, warp,
+    warp_isotropic,
 };
 use serde::Serialize;
 
@@ -43,15 +44,19 @@ impl Optimizer {
         }
     }
 
-    /// The targets that points with these measures miss, in words.
-    pub fn misses(&self, measures: &Measures) -> Vec<String> {
-        let unmet = match self {
-            Self::Procrustes(_) => Vec::new(),
-            Self::PushPull(params) => params.unmet(measures),
-        };
-        unmet
-            .iter()
-            .map(|target| format!("{} is {:.6}, wanted {}", target.name.replace('_', " "), target.measured, target.wanted))
-            .collect()
+    /// What to expect, where it is no good.
+    pub fn advice(&self, space: &Space) -> Option<String> {
+        match self {
+            Self::Procrustes(_) => None,
+            Self::PushPull(params) => params.advice(space),
+        }
+    }
+
+    /// The targets that points with these measures miss; `None` for a method that has none.
+    pub fn unmet(&self, measures: &Measures) -> Option<Vec<UnmetTarget>> {
+        match self {
+            Self::Procrustes(_) => None,
+            Self::PushPull(params) => Some(params.unmet(measures)),
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use evenly::{Measures, Report, Space};
+use evenly::{Measures, Report, Space, UnmetTarget};
 use serde::Serialize;
 
 use crate::optimizer::Optimizer;
@@ -24,6 +24,9 @@ pub struct Record {
     /// Absent for fewer than three points, or all on one line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
+    /// The targets that were not reached; absent for a method that has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unmet: Option<Vec<UnmetTarget>>,
     pub notes: Vec<String>,
 }
 

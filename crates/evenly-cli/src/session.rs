@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, measure};
+use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
 use evenly_io::{Draw, Target, write_points};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -15,6 +15,8 @@ use crate::record::{self, Record};
 
 /// Interrupted; the state reached is written.
 const INTERRUPTED: u8 = 130;
+/// Two signals within this time are one.
+const AT_ONCE: Duration = Duration::from_millis(500);
 /// Done, but what was asked for was not reached.
 const NOT_REACHED: u8 = 1;
 
@@ -70,8 +72,11 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// Tells the user something, and the record.
+    /// Tells the user something, once, and the record.
     pub fn note(&mut self, note: String) {
+        if self.notes.contains(&note) {
+            return;
+        }
         if !self.args.quiet {
             eprintln!("note: {note}");
         }
@@ -93,6 +98,9 @@ impl<'a> Session<'a> {
         let is_warped = is_warped && points.n_points() >= 3;
         if is_warped {
             self.time("warp", || optimizer.warp(&mut points));
+        }
+        if let Some(advice) = optimizer.advice(points.space()) {
+            self.note(advice);
         }
         self.catch_interrupt()?;
         let bar = self.bar();
@@ -124,10 +132,14 @@ impl<'a> Session<'a> {
     /// From here on Ctrl-C ends the run after the iteration at hand; before, there is nothing to keep.
     fn catch_interrupt(&self) -> anyhow::Result<()> {
         let (cancel, is_quiet) = (self.cancel.clone(), self.args.quiet);
+        let mut asked: Option<Instant> = None;
         let on_interrupt = move || {
-            if cancel.is_cancelled() {
+            match asked {
+                // Some programs send the signal twice at once.
+                Some(at) if at.elapsed() < AT_ONCE => return,
                 // Asked twice: at once, and nothing is written.
-                std::process::exit(i32::from(INTERRUPTED));
+                Some(_) => std::process::exit(i32::from(INTERRUPTED)),
+                None => asked = Some(Instant::now()),
             }
             cancel.cancel();
             if !is_quiet {
@@ -142,9 +154,9 @@ impl<'a> Session<'a> {
         let has_targets = matches!(self.optimizer, Some(Optimizer::PushPull(_)));
         let is_wanted = !self.args.quiet || self.args.json || self.report.is_some() || has_targets;
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
-        let misses = match (&self.optimizer, &measures) {
-            (Some(optimizer), Some(measures)) => optimizer.misses(measures),
-            _ => Vec::new(),
+        let unmet = match (&self.optimizer, &measures) {
+            (Some(optimizer), Some(measures)) => optimizer.unmet(measures),
+            _ => None,
         };
         let recipe = record::recipe(self.seed);
         let start = Instant::now();
@@ -153,10 +165,14 @@ impl<'a> Session<'a> {
         if !self.args.quiet {
             self.summarize(&points, run.as_ref(), measures.as_ref());
         }
-        for miss in &misses {
-            self.note(format!("not reached: {miss}"));
-        }
         let outcome = run.as_ref().map(|run| run.outcome);
+        let has_missed = unmet.as_ref().is_some_and(|unmet| !unmet.is_empty());
+        for UnmetTarget { name, wanted, measured } in unmet.iter().flatten() {
+            self.note(format!("not reached: {} is {measured:.6}, wanted {wanted}", name.replace('_', " ")));
+        }
+        if has_missed && outcome == Some(Outcome::Converged) {
+            self.note("the targets were reached, but lost in rounding to coordinates so far from 0; move the origin nearer to it".into());
+        }
         let record = Record {
             version: record::VERSION,
             command: record::command(),
@@ -168,6 +184,7 @@ impl<'a> Session<'a> {
             run,
             seconds: self.seconds,
             measures,
+            unmet,
             notes: self.notes,
         };
         let text = serde_json::to_string_pretty(&record)? + "\n";
@@ -180,7 +197,7 @@ impl<'a> Session<'a> {
         Ok(match outcome {
             _ if self.cancel.is_cancelled() => ExitCode::from(INTERRUPTED),
             Some(Outcome::IterationLimit) => ExitCode::from(NOT_REACHED),
-            _ if !misses.is_empty() => ExitCode::from(NOT_REACHED),
+            _ if has_missed => ExitCode::from(NOT_REACHED),
             _ => ExitCode::SUCCESS,
         })
     }

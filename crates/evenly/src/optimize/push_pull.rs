@@ -20,13 +20,14 @@ mod rule;
 
 use serde::Serialize;
 
-use self::frontier::nearest_known;
+use self::frontier::{Known, nearest_known};
 use self::rule::PushPull;
 use super::prepare::{Prepared, keep_distinct, prepare};
 use crate::error::Error;
-use crate::measure::Measures;
+use crate::measure::{Measures, measure};
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Report, RunContext};
+use crate::space::Space;
 use crate::sweep::{Ending, Plan, Schedule, Sweep};
 use crate::triangulation::LiveMesh;
 
@@ -57,7 +58,7 @@ pub struct PushPullParams {
     /// waves stay. Less than 0.0386 takes many more passes.
     pub capacity_tolerance: Option<f64>,
     /// The part of each move that is made; in (0, 2). More than 1 reaches tougher targets, and makes points more regular; where it
-    /// diverges the run goes on with 1. With [`Schedule::Summed`] 0.5 converges and 1 does not.
+    /// diverges the run goes on with 1. With [`Schedule::Summed`] it is half of that all through: 0.5 converges, and 1 does not.
     pub relaxation: f64,
     /// Whether points move at each visit, or at the end of a pass. The second is the paper's parallel variant: it takes several times the
     /// passes, fails at tougher targets, and makes points less regular.
@@ -125,6 +126,11 @@ impl PushPullParams {
         }
     }
 
+    fn rule(&self) -> PushPull {
+        let &Self { min_distance, coverage_radius, capacity_tolerance, relaxation, .. } = self;
+        PushPull { min_distance, coverage_radius, capacity_tolerance, relaxation }
+    }
+
     /// Checks the parameters, as [`push_pull`] does before it begins.
     ///
     /// # Errors
@@ -151,10 +157,10 @@ impl PushPullParams {
         }
         match (self.min_distance, self.coverage_radius) {
             (None, None) if self.capacity_tolerance.is_none() => {
-                invalid("min_distance", shown(None), "given, or coverage_radius, or capacity_tolerance: there is no target")
+                invalid("min_distance", shown(None), "given, or the coverage radius, or the capacity tolerance: there is no target")
             }
             (Some(distance), Some(radius)) if distance > 3f64.sqrt() * radius => {
-                invalid("min_distance", distance.to_string(), "at most 1.732 times the coverage_radius, or both cannot be met")
+                invalid("min_distance", distance.to_string(), "at most 1.732 times the coverage radius, or both cannot be met")
             }
             _ => Ok(()),
         }
@@ -175,6 +181,37 @@ impl PushPullParams {
             .collect()
     }
 
+    /// What to expect of targets that are tougher than those that are known to be reached in this domain.
+    pub fn advice(&self, space: &Space) -> Option<String> {
+        let (distance, radius) = self.nearest_known(space)?;
+        let named = |name: &str, wanted: Option<f64>, known: f64| wanted.map(|_| format!("{name} {known}"));
+        let known = [named("min distance", self.min_distance, distance), named("coverage radius", self.coverage_radius, radius)];
+        let known = known.into_iter().flatten().collect::<Vec<_>>().join(" with ");
+        Some(format!("these targets are not known to be reached here, and the run may be long; the nearest that are: {known}"))
+    }
+
+    fn nearest_known(&self, space: &Space) -> Option<(f64, f64)> {
+        let known = match self.schedule {
+            Schedule::Summed => Known::Summed,
+            Schedule::InTurn if space.is_periodic() => Known::OnTorus,
+            Schedule::InTurn => Known::InRectangle,
+        };
+        nearest_known(self.min_distance, self.coverage_radius, self.capacity_tolerance, known)
+    }
+
+    /// By how much these measures miss the target that they miss most, relative to it; the capacity relative to the mean.
+    fn worst_miss(&self, measures: &Measures) -> f64 {
+        let of_distance = self.min_distance.map(|wanted| 1.0 - measures.min_distance / wanted);
+        let of_radius = self.coverage_radius.map(|wanted| measures.coverage_radius / wanted - 1.0);
+        let of_capacity = self.capacity_tolerance.map(|wanted| measures.capacity_max_deviation - wanted);
+        [of_distance, of_radius, of_capacity].into_iter().flatten().fold(0.0, f64::max)
+    }
+
+    /// The relaxation from which on a run may diverge.
+    fn safe_relaxation(&self) -> f64 {
+        if self.schedule == Schedule::Summed { 0.5 } else { 1.0 }
+    }
+
     /// Passes that tough targets may take: more points have a worse worst spot.
     fn pass_limit(&self, n_points: usize) -> usize {
         self.max_passes.unwrap_or_else(|| (1000.0 * ((n_points as f64).log10() - 1.0)).max(2000.0) as usize)
@@ -183,7 +220,8 @@ impl PushPullParams {
 
 /// Optimises `points` in place; their number and order stay.
 ///
-/// Where the targets are not reached, the report says so, and `points` are in the state in which most of them were at rest.
+/// Where the targets are not reached, the report says so, and `points` are in the best state that was seen: that which misses a target by least. Where
+/// they are tougher than what is known to be reached, that is reached first.
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] as [`PushPullParams::validate`] has it; [`Error::TooFine`] where f64 cannot tell the points apart;
@@ -204,54 +242,85 @@ impl PushPullParams {
 pub fn push_pull(points: &mut PointSet, params: &PushPullParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
     let mut report = Report::new("push-pull", points.n_points());
-    let &PushPullParams { min_distance, coverage_radius, capacity_tolerance, .. } = params;
-    let rule = |relaxation: f64| PushPull { min_distance, coverage_radius, capacity_tolerance, relaxation };
-    if let Some((distance, radius)) = nearest_known(min_distance, coverage_radius, capacity_tolerance, points.space().is_periodic()) {
-        let radius = if radius.is_finite() { format!(" with coverage radius {radius}") } else { String::new() };
-        report.notes.push(format!("these targets are not known to be reached; the nearest that are: min distance {distance}{radius}"));
-    }
+    report.notes.extend(params.advice(points.space()));
 
     // Distinct points, and their Delaunay triangulation.
     let Some(Prepared { domain, spacing, positions, order }) = prepare(points, &mut report, run)? else { return Ok(report) };
     run.enter(Phase::Triangulate);
     let mut sweep = Sweep::new(LiveMesh::new(&domain, positions, order, spacing)?);
     report.triangulations = 1;
-
-    // Visits, until no point has to move another; with less zeal where that leads astray.
     run.enter(Phase::Optimize);
     let mut plan = Plan {
         schedule: params.schedule,
         max_passes: params.pass_limit(points.n_points()),
         seed: params.seed,
-        ends_if_diverging: params.relaxation > 1.0,
+        ends_if_diverging: params.relaxation > params.safe_relaxation(),
+        ends_if_stuck: false,
     };
-    let mut ending = sweep.run(&rule(params.relaxation), &plan, run, &mut report)?;
-    if ending == Ending::Diverging {
-        report
-            .notes
-            .push(format!("relaxation {} diverges after {} passes: from the best state on it is 1", params.relaxation, report.iterations));
-        plan.ends_if_diverging = false;
-        sweep.return_to_best()?;
-        report.triangulations += 1;
-        ending = sweep.run(&rule(1.0), &plan, run, &mut report)?;
+
+    // Of targets that are not known to be reached, first the nearest that are.
+    let rule = params.rule();
+    let mut fallback = None;
+    if let Some((distance, radius)) = params.nearest_known(points.space()) {
+        let known =
+            PushPull { min_distance: rule.min_distance.map(|_| distance), coverage_radius: rule.coverage_radius.map(|_| radius), ..rule };
+        if settle(&mut sweep, known, params, &plan, run, &mut report)? != Ending::Converged {
+            sweep.return_to_best()?;
+        }
+        fallback = Some(sweep.change_rule(report.iterations));
+        plan.ends_if_stuck = true;
     }
+
+    // Visits, until no point has to move another.
+    let ending = settle(&mut sweep, rule, params, &plan, run, &mut report)?;
     report.outcome = match ending {
         Ending::Converged => Outcome::Converged,
         Ending::Cancelled => Outcome::Cancelled,
-        Ending::PassLimit | Ending::Diverging => Outcome::IterationLimit,
+        Ending::PassLimit | Ending::Diverging | Ending::Stuck => Outcome::IterationLimit,
     };
     let best = sweep.into_best();
-    if report.outcome == Outcome::IterationLimit {
-        report.notes.push(format!(
-            "stopped after {} passes; the state after pass {} is kept, in which {:.2} % of the points were at rest",
-            report.iterations,
-            best.pass,
-            100.0 * best.stable_share
-        ));
+    if report.outcome == Outcome::Converged {
+        points.place(&domain, &best.order, &best.places);
+    } else {
+        let states = [Some(best.places), fallback].into_iter().flatten();
+        *points = nearest_to_targets(points, params, states.map(|places| points.moved(&domain, &best.order, &places)).collect());
     }
-    points.place(&domain, &best.order, &best.places);
+    if report.outcome == Outcome::IterationLimit {
+        let share = 100.0 * best.stable_share;
+        report
+            .notes
+            .push(format!("stopped after {} passes; in the best of them {share:.2} % of the points were at rest", report.iterations));
+    }
     if report.outcome != Outcome::Converged || params.min_distance.is_none() {
         keep_distinct(points);
     }
     Ok(report)
+}
+
+/// Sweeps, and where a large relaxation leads nowhere, once more with a safe one.
+fn settle(
+    sweep: &mut Sweep,
+    mut rule: PushPull,
+    params: &PushPullParams,
+    plan: &Plan,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> Result<Ending, Error> {
+    let ending = sweep.run(&rule, plan, run, report)?;
+    if ending != Ending::Diverging {
+        return Ok(ending);
+    }
+    rule.relaxation = params.safe_relaxation();
+    let (tried, passes, safe) = (params.relaxation, report.iterations, rule.relaxation);
+    report.notes.push(format!("relaxation {tried} had made no progress by pass {passes}; from the best state on it was {safe}"));
+    sweep.return_to_best()?;
+    report.triangulations += 1;
+    sweep.run(&rule, &Plan { ends_if_diverging: false, ..*plan }, run, report)
+}
+
+/// Of the start and some states, that which misses a target by least.
+fn nearest_to_targets(start: &PointSet, params: &PushPullParams, states: Vec<PointSet>) -> PointSet {
+    let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| params.worst_miss(&measures));
+    let all = states.into_iter().chain([start.clone()]).map(|points| (miss(&points), points));
+    all.min_by(|(a, _), (b, _)| a.total_cmp(b)).map_or_else(|| start.clone(), |(_, points)| points)
 }

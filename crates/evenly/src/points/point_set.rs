@@ -89,6 +89,13 @@ impl PointSet {
         }
     }
 
+    /// The same set with point `order[k]` at `positions[k]`.
+    pub(crate) fn moved(&self, domain: &Domain, order: &[u32], positions: &[DVec2]) -> Self {
+        let mut moved = self.clone();
+        moved.place(domain, order, positions);
+        moved
+    }
+
     /// Checks that a set of so many points can be made.
     pub(crate) fn validate(space: &Space, n_points: usize) -> Result<(), Error> {
         if n_points == 0 {

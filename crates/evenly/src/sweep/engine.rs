@@ -34,6 +34,8 @@ pub(crate) struct Plan {
     pub seed: u64,
     /// Whether the sweep ends where it gets worse and worse.
     pub ends_if_diverging: bool,
+    /// Whether it ends where no state better than the best has come for long.
+    pub ends_if_stuck: bool,
 }
 
 /// How a sweep has ended.
@@ -44,6 +46,7 @@ pub(crate) enum Ending {
     PassLimit,
     Cancelled,
     Diverging,
+    Stuck,
 }
 
 /// Points on their way.
@@ -55,9 +58,9 @@ pub(crate) struct Sweep {
     best: Best,
 }
 
-/// The state after the pass that found the least unrest.
+/// The state after the pass that found the least wrong.
 struct Best {
-    unrest: f64,
+    wrong: f64,
     n_unstable: usize,
     /// The pass, counted from 1; 0 for the start.
     pass: usize,
@@ -68,15 +71,15 @@ struct Best {
 pub(crate) struct BestState {
     /// The share of points at which the rule had nothing to do.
     pub stable_share: f64,
-    /// The pass after which it was reached; 0 for the start.
-    pub pass: usize,
     pub places: Vec<DVec2>,
     /// The caller's index of each point.
     pub order: Vec<u32>,
 }
 
-/// A pass is kept as the best if it found less than this share of the unrest of the one before.
+/// A pass is kept as the best if it found less than this share of what was wrong in the one before.
 const BETTER: f64 = 0.9;
+/// A sweep is stuck that has found nothing better in this many passes, and in as many as it took to the best.
+const LONG: usize = 500;
 /// A sweep diverges that after this many passes
 const PATIENCE: usize = 400;
 /// finds, on average of the last ones,
@@ -86,10 +89,17 @@ const RESTLESS: f64 = 0.007;
 /// After this many passes, and at the powers of two before, points are put into the cells where they are by then.
 const RENEWAL: usize = 64;
 
+impl Best {
+    /// The state of the mesh after so many passes, of which nothing is known yet.
+    fn start(mesh: &LiveMesh, pass: usize) -> Self {
+        Self { wrong: f64::INFINITY, n_unstable: mesh.n_points(), pass, places: mesh.points() }
+    }
+}
+
 impl Sweep {
     pub fn new(mesh: LiveMesh) -> Self {
         let cells = Cells::new(&mesh);
-        let best = Best { unrest: f64::INFINITY, n_unstable: mesh.n_points(), pass: 0, places: mesh.points() };
+        let best = Best::start(&mesh, 0);
         Self { mesh, cells, unrest: Vec::new(), best }
     }
 
@@ -117,7 +127,7 @@ impl Sweep {
             report.visits += work.n_visits;
             report.flips += work.n_flips;
             report.stable_share.push(1.0 - work.n_unstable as f64 / self.mesh.n_points() as f64);
-            self.unrest.push(work.unrest / self.mesh.n_points() as f64);
+            self.unrest.push(work.unrest.squares / self.mesh.n_points() as f64);
             self.keep_best(&work, report.iterations);
             self.show(run, report);
             // Flips, and visits put off halfway, leave dirt that the pass has not seen.
@@ -134,6 +144,10 @@ impl Sweep {
             }
             if plan.ends_if_diverging && self.is_diverging() {
                 return Ok(Ending::Diverging);
+            }
+            let n_worse = report.iterations - self.best.pass;
+            if plan.ends_if_stuck && n_worse > LONG.max(self.best.pass) {
+                return Ok(Ending::Stuck);
             }
         }
         Ok(Ending::PassLimit)
@@ -175,14 +189,22 @@ impl Sweep {
     }
 
     fn keep_best(&mut self, work: &Work, pass: usize) {
-        if work.unrest < BETTER * self.best.unrest || work.unrest == 0.0 {
-            self.best = Best { unrest: work.unrest, n_unstable: work.n_unstable, pass, places: self.mesh.points() };
+        // The longest move that was asked for is about the worst miss; but while points find their places, the rest counts as well.
+        let wrong = work.unrest.longest * work.unrest.squares.sqrt();
+        if wrong < BETTER * self.best.wrong || work.unrest.is_none() {
+            self.best = Best { wrong, n_unstable: work.n_unstable, pass, places: self.mesh.points() };
         }
     }
 
     fn is_diverging(&self) -> bool {
         let last = &self.unrest[self.unrest.len().saturating_sub(WINDOW)..];
         self.unrest.len() > PATIENCE && last.iter().sum::<f64>() > RESTLESS * WINDOW as f64
+    }
+
+    /// The best state, if the sweep goes on with another rule: all points are looked at anew.
+    pub fn change_rule(&mut self, n_passes: usize) -> Vec<DVec2> {
+        (0..self.mesh.n_points() as u32).for_each(|v| self.mesh.soil(v));
+        std::mem::replace(&mut self.best, Best::start(&self.mesh, n_passes)).places
     }
 
     /// Goes back to the best state.
@@ -192,9 +214,9 @@ impl Sweep {
 
     /// The best state.
     pub fn into_best(self) -> BestState {
-        let Best { n_unstable, pass, places, .. } = self.best;
+        let Best { n_unstable, places, .. } = self.best;
         let stable_share = 1.0 - n_unstable as f64 / self.mesh.n_points() as f64;
-        BestState { stable_share, pass, places, order: self.mesh.into_order() }
+        BestState { stable_share, places, order: self.mesh.into_order() }
     }
 
     /// Unstable points become fewer about exponentially.
@@ -232,7 +254,7 @@ mod tests {
 
     fn smooth(space: Space, schedule: Schedule, n_threads: usize) -> (PointSet, Report) {
         let mut points = white(space, 3000, 5).unwrap();
-        let plan = Plan { schedule, max_passes: 30, seed: 1, ends_if_diverging: false };
+        let plan = Plan { schedule, max_passes: 30, seed: 1, ends_if_diverging: false, ends_if_stuck: false };
         let mut report = Report::new("smooth", 3000);
         let mut sweep = sweep(&points);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
@@ -265,7 +287,7 @@ mod tests {
         cancel.cancel();
         let mut sweep = sweep(&points);
         let mut report = Report::new("smooth", 100);
-        let plan = Plan { schedule: Schedule::InTurn, max_passes: 9, seed: 0, ends_if_diverging: false };
+        let plan = Plan { schedule: Schedule::InTurn, max_passes: 9, seed: 0, ends_if_diverging: false, ends_if_stuck: false };
         let ending = sweep.run(&Smooth, &plan, &mut RunContext::default().with_cancel(cancel), &mut report).unwrap();
         assert_eq!((ending, report.iterations), (Ending::Cancelled, 0));
         let mut after = points.clone();

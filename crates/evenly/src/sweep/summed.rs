@@ -22,7 +22,7 @@ pub(super) fn summed_pass(mesh: &mut LiveMesh, rule: &impl Rule) -> Work {
             for &v in chunk {
                 // With everything free, nothing lies outside.
                 let unrest = ask(mesh, rule, v, Territory::EVERYTHING, buffer).unwrap_or_default();
-                if unrest == 0.0 {
+                if unrest.is_none() {
                     mesh.clean(v);
                 }
                 work.count(unrest);

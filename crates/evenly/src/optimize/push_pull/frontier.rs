@@ -27,11 +27,26 @@ const IN_RECTANGLE: [Row; 4] = [
     Row { radius: 0.75, strict: 0.92, loose: 0.92 },
 ];
 
+/// With summed moves, everywhere.
+const SUMMED: [Row; 1] = [Row { radius: 0.65, strict: 0.90, loose: 0.90 }];
+
+/// What is known.
+#[derive(Clone, Copy)]
+pub(super) enum Known {
+    OnTorus,
+    InRectangle,
+    Summed,
+}
+
 /// The nearest distance and radius that are known to be reached, where these are tougher.
-pub(super) fn nearest_known(distance: Option<f64>, radius: Option<f64>, tolerance: Option<f64>, is_periodic: bool) -> Option<(f64, f64)> {
+pub(super) fn nearest_known(distance: Option<f64>, radius: Option<f64>, tolerance: Option<f64>, known: Known) -> Option<(f64, f64)> {
     let (distance, radius) = (distance.unwrap_or(0.0), radius.unwrap_or(f64::INFINITY));
     let is_loose = tolerance.is_none_or(|tolerance| tolerance >= 0.1);
-    let rows: &[Row] = if is_periodic { &ON_TORUS } else { &IN_RECTANGLE };
+    let rows: &[Row] = match known {
+        Known::OnTorus => &ON_TORUS,
+        Known::InRectangle => &IN_RECTANGLE,
+        Known::Summed => &SUMMED,
+    };
     let known = rows.iter().map(|row| (row.radius, if is_loose { row.loose } else { row.strict })).filter(|&(_, most)| most > 0.0);
     // A row stands for its radius and all above, and its distance and all below.
     let in_row = |(row_radius, most): (f64, f64)| (distance.min(most), radius.max(row_radius));
@@ -48,7 +63,7 @@ mod tests {
     use super::*;
 
     fn nearest(distance: f64, radius: Option<f64>, tolerance: Option<f64>) -> Option<(f64, f64)> {
-        nearest_known(Some(distance), radius, tolerance, true)
+        nearest_known(Some(distance), radius, tolerance, Known::OnTorus)
     }
 
     #[test]
