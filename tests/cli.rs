@@ -307,6 +307,8 @@ fn bad_input_gets_one_line_and_no_file() {
         ("generate -n 10 -o o.txt --preset tough", "--preset is for --method push-pull"),
         ("generate -n 10 -o o.txt --method white --mode fast", "--mode is for --method procrustes"),
         ("optimize good.txt -o o.txt --method warp -i 3", "--iterations is for"),
+        ("optimize good.txt -o o.txt --method warp --no-warp", "--no-warp is for"),
+        ("generate -n 10 -o o.txt --method white --start jittered", "--start is for"),
         ("generate -n 10 -o o.txt --nonsense", "--nonsense"),
         ("generate -n 10 -o good.txt", "good.txt exists already; pass --force"),
         ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .svg .png"),

@@ -155,6 +155,26 @@ fn steps_that_undo_each_other_are_not_taken_for_rest() {
     assert_eq!(report.outcome, Outcome::IterationLimit);
 }
 
+#[test]
+fn what_counts_as_converged_is_reached() {
+    let good = PushPullParams::preset(PushPullPreset::Fast);
+    let hexagonal = hexagonal(torus([0.0, 0.0], [1.0, 3f64.sqrt() / 2.0]), 100).unwrap();
+    let far = |n| white(torus([1e12, 0.0], [1.0, 1.0]), n, 0).unwrap();
+    for (start, params) in [
+        (hexagonal, PushPullParams { min_distance: None, coverage_radius: Some(0.577), capacity_tolerance: Some(0.001), ..good }),
+        (white(spaces()[0], 300, 0).unwrap(), PushPullParams { relaxation: 0.02, max_passes: Some(3000), ..good }),
+        (white(spaces()[3], 300, 0).unwrap(), PushPullParams { relaxation: 0.003, max_passes: Some(300), ..good }),
+        (white(spaces()[0], 300, 0).unwrap(), PushPullParams { capacity_tolerance: Some(1e-7), max_passes: Some(300), ..good }),
+        (far(100), good),
+    ] {
+        let mut points = start;
+        let report = push_pull(&mut points, &params, &mut RunContext::default()).unwrap();
+        let is_reached = params.unmet(&measure(&points).unwrap()).is_empty();
+        assert_eq!(report.outcome == Outcome::Converged, is_reached, "{params:?}: {:?}", report.outcome);
+        assert!(report.outcome != Outcome::LostToRounding || points.space().origin()[0] > 1e11);
+    }
+}
+
 /// Found by random runs: of three points of which two share a place, all lie on one line.
 #[test]
 fn points_that_end_in_one_place_are_moved_apart() {

@@ -53,9 +53,9 @@ pub struct Generate {
     /// How they are made: by an optimiser, or as one of its starts
     #[arg(long, value_enum, default_value = "procrustes")]
     pub method: GenerateMethod,
-    /// What an optimiser starts from
-    #[arg(long, value_enum, default_value = "white")]
-    pub start: Start,
+    /// What an optimiser starts from [default: white]
+    #[arg(long, value_enum)]
+    pub start: Option<Start>,
     /// The same seed gives the same points
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -358,7 +358,8 @@ impl OptimizerArgs {
     pub fn none(&self) -> anyhow::Result<()> {
         refuse(self.procrustes.given(), "procrustes")?;
         refuse(self.push_pull.given(), "push-pull")?;
-        refuse(self.iterations.map(|_| "iterations"), "procrustes or push-pull")
+        refuse(self.iterations.map(|_| "iterations"), "procrustes or push-pull")?;
+        refuse(self.no_warp.then_some("no-warp"), "procrustes or push-pull")
     }
 }
 
@@ -396,7 +397,7 @@ fn by_flag(error: Error) -> anyhow::Error {
     }
 }
 
-fn refuse(flag: Option<&str>, method: &str) -> anyhow::Result<()> {
+pub fn refuse(flag: Option<&str>, method: &str) -> anyhow::Result<()> {
     match flag {
         Some(flag) => bail!("--{flag} is for --method {method}"),
         None => Ok(()),

@@ -170,9 +170,6 @@ impl<'a> Session<'a> {
         for UnmetTarget { name, wanted, measured } in unmet.iter().flatten() {
             self.note(format!("not reached: {} is {measured:.6}, wanted {wanted}", name.replace('_', " ")));
         }
-        if has_missed && outcome == Some(Outcome::Converged) {
-            self.note("the targets were reached, but lost in rounding to coordinates so far from 0; move the origin nearer to it".into());
-        }
         let record = Record {
             version: record::VERSION,
             command: record::command(),
@@ -196,7 +193,7 @@ impl<'a> Session<'a> {
         }
         Ok(match outcome {
             _ if self.cancel.is_cancelled() => ExitCode::from(INTERRUPTED),
-            Some(Outcome::IterationLimit) => ExitCode::from(NOT_REACHED),
+            Some(Outcome::IterationLimit | Outcome::LostToRounding) => ExitCode::from(NOT_REACHED),
             _ if has_missed => ExitCode::from(NOT_REACHED),
             _ => ExitCode::SUCCESS,
         })
@@ -207,7 +204,7 @@ impl<'a> Session<'a> {
         let steps = if run.is_some_and(|run| run.visits > 0) { "passes" } else { "iterations" };
         let how = match run.map(|run| (run.outcome, run.iterations)) {
             Some((Outcome::Converged, n)) => format!(", converged in {n} {steps}"),
-            Some((Outcome::IterationLimit, n)) => format!(", not converged in {n} {steps}"),
+            Some((Outcome::IterationLimit | Outcome::LostToRounding, n)) => format!(", not converged in {n} {steps}"),
             Some((Outcome::Cancelled, n)) => format!(", interrupted after {n} {steps}"),
             Some((Outcome::NothingToDo, _)) | None => String::new(),
         };

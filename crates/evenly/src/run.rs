@@ -95,6 +95,8 @@ pub enum Outcome {
     Converged,
     /// The limit of iterations or passes came first; the best state reached is kept.
     IterationLimit,
+    /// The stop criterion was met, but not any more after rounding to input units: the domain is too far from 0.
+    LostToRounding,
     /// The run was cancelled; the best state reached is kept.
     Cancelled,
     /// Fewer than three points: nothing to optimise.

@@ -43,7 +43,9 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
 pub(super) fn keep_distinct(points: &mut PointSet) {
     let (domain, mut positions) = points.normalized();
     let spacing = domain.hex_spacing(positions.len());
-    let (_, coincident_points) = make_distinct(&domain, &mut positions, spacing);
+    // By more than rounding can take back.
+    let resolution = points.space().resolution() * spacing / points.hex_spacing();
+    let (_, coincident_points) = make_distinct(&domain, &mut positions, spacing.max(1e4 * resolution));
     if coincident_points > 0 {
         let all: Vec<u32> = (0..positions.len() as u32).collect();
         points.place(&domain, &all, &positions);

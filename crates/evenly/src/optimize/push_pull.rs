@@ -166,7 +166,7 @@ impl PushPullParams {
         }
     }
 
-    /// The targets that points with these measures do not reach, beyond a millionth.
+    /// The targets that points with these measures do not reach, by more than a millionth.
     pub fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
         const ROUNDING: f64 = 1e-6;
         let targets = [
@@ -285,6 +285,12 @@ pub fn push_pull(points: &mut PointSet, params: &PushPullParams, run: &mut RunCo
         let states = [Some(best.places), fallback].into_iter().flatten();
         *points = nearest_to_targets(points, params, states.map(|places| points.moved(&domain, &best.order, &places)).collect());
     }
+    if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
+        report.outcome = Outcome::LostToRounding;
+        report
+            .notes
+            .push("the targets were reached, but lost in rounding to coordinates so far from 0; move the origin nearer to it".into());
+    }
     if report.outcome == Outcome::IterationLimit {
         let share = 100.0 * best.stable_share;
         report
@@ -316,6 +322,14 @@ fn settle(
     sweep.return_to_best()?;
     report.triangulations += 1;
     sweep.run(&rule, &Plan { ends_if_diverging: false, ..*plan }, run, report)
+}
+
+/// Whether points that have reached the targets miss them where f64 are coarse.
+fn is_lost_to_rounding(points: &PointSet, params: &PushPullParams) -> bool {
+    /// In spacings: finer numbers do not show in any measure.
+    const COARSE: f64 = 1e-8;
+    let is_coarse = points.space().resolution() > COARSE * points.hex_spacing();
+    is_coarse && measure(points).is_ok_and(|measures| !params.unmet(&measures).is_empty())
 }
 
 /// Of the start and some states, that which misses a target by least.

@@ -142,10 +142,15 @@ impl Space {
         Domain::new(self.origin(), self.size(), self.is_periodic())
     }
 
+    /// The distance between neighbouring f64 at the domain's far end, in input units.
+    pub(crate) fn resolution(&self) -> f64 {
+        let (origin, size) = (self.origin(), self.size());
+        (0..2).map(|axis| ulp(origin[axis].abs().max((origin[axis] + size[axis]).abs()))).fold(0.0, f64::max)
+    }
+
     /// Checks that f64 can tell `n_points` points apart here.
     pub(crate) fn require_resolution(&self, n_points: usize) -> Result<(), Error> {
-        let (origin, size) = (self.origin(), self.size());
-        let resolution = (0..2).map(|axis| ulp(origin[axis].abs().max((origin[axis] + size[axis]).abs()))).fold(0.0, f64::max);
+        let resolution = self.resolution();
         let spacing = self.hex_spacing(n_points);
         if spacing < 64.0 * resolution {
             return Err(Error::TooFine { n_points, domain: self.to_string(), spacing, resolution });

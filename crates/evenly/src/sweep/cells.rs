@@ -28,21 +28,21 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// A division of the mesh' domain; a cover is one cell, since the copies of a point move together.
-    pub fn new(mesh: &LiveMesh) -> Self {
+    /// Divides the mesh' domain, and puts every point into the cell and block where it is now. A cover is one cell, since the copies of a
+    /// point move together.
+    pub fn new(mesh: &mut LiveMesh) -> Self {
         let size = if mesh.is_cover() { DVec2::ZERO } else { mesh.domain().size };
         let fitting = (size / (SIDE * mesh.spacing())).to_array();
         let n_cells = fitting.map(|n| if n < 2.0 { 1 } else { 1 << (n.log2() as u32) }).map(|n: u32| n.min(MAX_CELLS));
-        Self { n_cells, members: Vec::new(), starts: Vec::new() }
+        let mut cells = Self { n_cells, members: Vec::new(), starts: vec![0; (n_cells[0] * n_cells[1]) as usize + 1] };
+        cells.assign(mesh);
+        cells
     }
 
-    /// Puts every point into the cell and block where it is now.
-    pub fn assign(&mut self, mesh: &mut LiveMesh) {
+    fn assign(&mut self, mesh: &mut LiveMesh) {
         let n_blocks = DVec2::new(f64::from(BLOCKS * self.n_cells[0]), f64::from(BLOCKS * self.n_cells[1]));
         let scale = n_blocks / mesh.domain().size;
         let n_cells = (self.n_cells[0] * self.n_cells[1]) as usize;
-        self.starts.clear();
-        self.starts.resize(n_cells + 1, 0);
         let n_points = mesh.n_points() as u32;
         let cells: Vec<u32> = (0..n_points)
             .map(|v| {
@@ -106,8 +106,7 @@ mod tests {
         let order = hilbert_order(&positions, domain.size);
         let sorted = order.iter().map(|&index| positions[index as usize]).collect();
         let mut mesh = LiveMesh::new(&domain, sorted, order, domain.hex_spacing(n)).unwrap();
-        let mut cells = Cells::new(&mesh);
-        cells.assign(&mut mesh);
+        let cells = Cells::new(&mut mesh);
         (mesh, cells)
     }
 

@@ -56,6 +56,8 @@ pub(crate) struct Sweep {
     /// What each pass wanted to move: squared, in spacings, on average of the points.
     unrest: Vec<f64>,
     best: Best,
+    /// How far the sweep has come, as it was last shown.
+    fraction: f64,
 }
 
 /// The state after the pass that found the least wrong.
@@ -76,15 +78,15 @@ pub(crate) struct BestState {
     pub order: Vec<u32>,
 }
 
-/// A pass is kept as the best if it found less than this share of what was wrong in the one before.
+/// A state is kept as the best if it has less than this share of what is wrong with the one that is kept: copies cost time.
 const BETTER: f64 = 0.9;
 /// A sweep is stuck that has found nothing better in this many passes, and in as many as it took to the best.
 const LONG: usize = 500;
-/// A sweep diverges that after this many passes
+/// Before so many passes no sweep is said to diverge.
 const PATIENCE: usize = 400;
-/// finds, on average of the last ones,
+/// The passes over which its unrest is averaged then.
 const WINDOW: usize = 64;
-/// more than this unrest a point. Those that converge in the end have come below by then.
+/// The unrest a point, squares of spacings, above which it diverges. Sweeps that converge in the end have come below by then.
 const RESTLESS: f64 = 0.007;
 /// After this many passes, and at the powers of two before, points are put into the cells where they are by then.
 const RENEWAL: usize = 64;
@@ -97,10 +99,10 @@ impl Best {
 }
 
 impl Sweep {
-    pub fn new(mesh: LiveMesh) -> Self {
-        let cells = Cells::new(&mesh);
+    pub fn new(mut mesh: LiveMesh) -> Self {
+        let cells = Cells::new(&mut mesh);
         let best = Best::start(&mesh, 0);
-        Self { mesh, cells, unrest: Vec::new(), best }
+        Self { mesh, cells, unrest: Vec::new(), best, fraction: 0.0 }
     }
 
     /// Sweeps until nothing moves, and adds to the report what it did.
@@ -116,7 +118,7 @@ impl Sweep {
             let pass = self.unrest.len();
             if pass.is_power_of_two() || pass.is_multiple_of(RENEWAL) {
                 debug_assert_eq!(self.mesh.triangulation().check(), Ok(()));
-                self.cells.assign(&mut self.mesh);
+                self.cells = Cells::new(&mut self.mesh);
             }
             let work = match plan.schedule {
                 Schedule::InTurn => self.pass(rule, Random::derived(plan.seed, report.iterations), run),
@@ -137,7 +139,7 @@ impl Sweep {
             let was_torn = self.mesh.mend()?;
             if was_torn {
                 report.triangulations += 1;
-                self.cells.assign(&mut self.mesh);
+                self.cells = Cells::new(&mut self.mesh);
             }
             if is_still && n_late_flips == 0 && !was_torn {
                 return Ok(Ending::Converged);
@@ -220,10 +222,12 @@ impl Sweep {
     }
 
     /// Unstable points become fewer about exponentially.
-    fn show(&self, run: &mut RunContext, report: &Report) {
-        let fraction = 1.0 - (1.0 + self.best.n_unstable as f64).ln() / (1.0 + self.mesh.n_points() as f64).ln();
+    fn show(&mut self, run: &mut RunContext, report: &Report) {
+        let n_points = self.mesh.n_points() as f64;
         let stable_share = report.stable_share.last().copied();
-        run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share, fraction });
+        let n_unstable = n_points * (1.0 - stable_share.unwrap_or(0.0));
+        self.fraction = self.fraction.max(1.0 - (1.0 + n_unstable).ln() / (1.0 + n_points).ln());
+        run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share, fraction: self.fraction });
     }
 }
 

@@ -5,8 +5,8 @@ use glam::DVec2;
 use crate::star::Rule;
 use crate::triangulation::{LiveMesh, MIRROR, Outside, StarBuffer, Territory};
 
-/// Moves below this, in spacings, are rounding.
-const STILL: f64 = 1e-6;
+/// Moves below this, in spacings, are not worth making.
+const STILL: f64 = 1e-9;
 /// The longest move, in spacings.
 const LONGEST: f64 = 1.0;
 

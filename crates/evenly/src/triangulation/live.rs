@@ -103,7 +103,7 @@ impl LiveMesh {
         self.mesh.set_dirty(v, false);
     }
 
-    /// Puts a vertex and its copies into a block, by which territories tell it.
+    /// Puts a vertex into a block, by which territories tell it.
     pub fn set_block(&mut self, v: u32, block: u32) {
         self.mesh.set_block(v, block);
     }

@@ -24,6 +24,7 @@ impl LiveMesh {
     ///
     /// Where that reaches out of the territory, some of the way may have been made.
     pub fn relocate(&self, point: u32, by: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        debug_assert!(self.is_free(point, territory));
         let from = self.mesh.position(point);
         let target = self.domain.land(from + by);
         let mut is_there = self.go(point, target, territory, buffer)?;
@@ -156,12 +157,11 @@ mod tests {
         let lower = Territory { first: 0, outside: 8 << 16 };
         let before: Vec<DVec2> = (0..500).map(|v| mesh.position(v)).collect();
         let (mut buffer, mut n_outside) = (StarBuffer::default(), 0);
-        for v in 0..500 {
-            let has_moved = mesh.relocate(v, DVec2::splat(0.01), lower, &mut buffer).is_ok();
-            n_outside += usize::from(!has_moved);
-            assert!(!has_moved || before[v as usize].y <= 0.5);
+        for v in (0..500).filter(|&v| before[v as usize].y <= 0.5) {
+            let is_outside = mesh.relocate(v, DVec2::splat(0.01), lower, &mut buffer).is_err();
+            n_outside += usize::from(is_outside);
         }
-        assert!((250..400).contains(&n_outside));
+        assert!((10..150).contains(&n_outside), "{n_outside}");
         assert!((0..500).all(|v| before[v as usize].y <= 0.5 || mesh.position(v) == before[v as usize]));
         assert_eq!(mesh.triangulation().check(), Ok(()));
     }

@@ -1,4 +1,7 @@
-//! Reading a star: its edges are made Delaunay first, so that the cell it shows is the true one.
+//! Reading a star: its spokes are made Delaunay first.
+//!
+//! The edges between neighbours are not: they are spokes of the neighbours, which see to them when they are read. Until then the star may lack a
+//! neighbour. What it shows is certain once [`LiveMesh::legalize`] finds nothing to flip in all of the mesh.
 
 use glam::DVec2;
 
@@ -28,14 +31,14 @@ pub(crate) struct StarBuffer {
 }
 
 impl LiveMesh {
-    /// Makes the star of `v` Delaunay, and reads it.
+    /// Makes the spokes of `v` Delaunay, and reads its star.
     pub fn read(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         self.restore(v, territory, &mut buffer.spokes, &mut buffer.n_flips)?;
         self.fill(v, buffer);
         Ok(())
     }
 
-    /// Goes around `v`, and flips its edges until none is illegal.
+    /// Goes around `v`, and flips its spokes until none is illegal.
     pub(super) fn restore(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke>, n_flips: &mut usize) -> Result<(), Outside> {
         loop {
             self.walk(v, territory, ring)?;
@@ -67,7 +70,7 @@ impl LiveMesh {
         }
     }
 
-    /// An edge that is illegal: a spoke, or one between neighbours.
+    /// A spoke that is illegal.
     fn find_illegal(&self, ring: &[Spoke]) -> Option<u32> {
         // The angles opposite an edge sum to less than pi where their cotangents sum to more than 0.
         let is_doubtful = |a: f64, b: f64| a + b <= DOUBT * (a.abs() + b.abs());
@@ -91,24 +94,15 @@ impl LiveMesh {
         star.lengths.extend(spokes.iter().map(|spoke| spoke.squared.sqrt() * scale));
         star.is_mirror.resize(spokes.len(), false);
         let area_scale = scale * scale;
-        let mut k = spokes.len();
-        let mut after = star.lengths[0];
-        for (spoke, &length) in spokes.iter_mut().zip(&star.lengths).rev() {
+        let after = star.lengths[1..].iter().chain(&star.lengths[..1]);
+        for ((spoke, &length), length_after) in spokes.iter_mut().zip(&star.lengths).zip(after) {
             spoke.length = length;
-        }
-        for spoke in &*spokes {
-            k = if k == spokes.len() { 1 } else { k + 1 };
-            let length = after;
-            after = if k == spokes.len() { star.lengths[0] } else { star.lengths[k] };
             // One division for both the sine and its inverse.
-            let (product, cross) = (length * after, spoke.cross * area_scale);
+            let (product, cross) = (length * length_after, spoke.cross * area_scale);
             let inverse = 1.0 / (product * cross);
             let over_product = inverse * cross;
-            star.wedges.push(Wedge {
-                cos: spoke.dot * area_scale * over_product,
-                sin: cross * over_product,
-                cosecant: product * product * inverse,
-            });
+            let cos = spoke.dot * area_scale * over_product;
+            star.wedges.push(Wedge { cos, sin: cross * over_product, cosecant: product * product * inverse });
         }
         if !self.domain.is_periodic {
             let at = self.mesh.position(v);
