@@ -27,23 +27,24 @@ impl LiveMesh {
         debug_assert!(self.is_free(point, territory));
         let from = self.mesh.position(point);
         let target = self.domain.land(from + by);
-        let mut is_there = self.go(point, target, territory, buffer)?;
+        self.go(point, target, territory, buffer)?;
         if self.is_cover() {
             // On the grid, so that copies move alike to the bit.
-            let by = self.domain.spoke(from, target);
+            let (by, went) = (self.domain.spoke(from, target), self.domain.spoke(from, self.mesh.position(point)));
             for copy in (point..self.n_live).step_by(self.n_points()).skip(1) {
-                is_there &= self.go(copy, self.domain.land(self.mesh.position(copy) + by), territory, buffer)?;
-            }
-            if !is_there {
-                self.is_torn.store(true, Relaxed);
+                let from = self.mesh.position(copy);
+                self.go(copy, self.domain.land(from + by), territory, buffer)?;
+                if self.domain.spoke(from, self.mesh.position(copy)) != went {
+                    self.is_torn.store(true, Relaxed);
+                }
             }
         }
         Ok(())
     }
 
-    /// Moves a vertex to its target; false if it was stopped on its way.
-    fn go(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<bool, Outside> {
-        Ok(self.step(v, target, territory)? || self.go_in_stages(v, target, territory, buffer)?)
+    /// Moves a vertex to its target, or as far as it gets.
+    fn go(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        if self.step(v, target, territory)? { Ok(()) } else { self.go_in_stages(v, target, territory, buffer) }
     }
 
     /// Moves a vertex at once, if all triangles around keep some area.
@@ -72,7 +73,7 @@ impl LiveMesh {
         Ok(true)
     }
 
-    fn go_in_stages(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<bool, Outside> {
+    fn go_in_stages(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         for _ in 0..MAX_STAGES {
             self.restore(v, territory, &mut buffer.moving, &mut buffer.n_flips)?;
             self.soil(v);
@@ -80,7 +81,7 @@ impl LiveMesh {
             let from = self.mesh.position(v);
             let way = self.domain.spoke(from, target);
             if way == DVec2::ZERO {
-                return Ok(true);
+                return Ok(());
             }
             // Twice a triangle's area falls by t way x rim on the part t of the way.
             let ring = &buffer.moving;
@@ -90,11 +91,11 @@ impl LiveMesh {
             let to = if clear > 1.0 { target } else { self.domain.land(from + STAGE * clear * way) };
             let ways = rims.map(|(spoke, after)| (self.spoke(to, spoke.vertex), self.spoke(to, after.vertex)));
             if to == from || !{ ways }.all(|(u, v)| self.domain.is_upright(u, v)) {
-                return Ok(false);
+                return Ok(());
             }
             self.mesh.set_position(v, to);
         }
-        Ok(false)
+        Ok(())
     }
 }
 
