@@ -13,6 +13,15 @@ pub(crate) struct Wedge {
     pub cosecant: f64,
 }
 
+impl Wedge {
+    /// The halves of Voronoi edges that lie in it, on its first spoke, of length `u`, and on its second.
+    #[inline]
+    fn halves(self, u: f64, v: f64) -> [f64; 2] {
+        let half = 0.5 * self.cosecant;
+        [(v - u * self.cos) * half, (u - v * self.cos) * half]
+    }
+}
+
 /// One vertex' neighbourhood. Spoke `k`, wedge `k` and spoke `k + 1` follow each other counter-clockwise; the last wedge closes the ring.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Star {
@@ -81,15 +90,15 @@ impl Star {
     pub fn measure_cell(&mut self) -> f64 {
         let Self { lengths, wedges, sides, .. } = self;
         sides.clear();
-        let Some(&first) = lengths.first() else { return 0.0 };
-        let after = lengths[1..].iter().chain([&first]);
+        let ([first, .., last], Some(&closing)) = (&lengths[..], wedges.last()) else { return 0.0 };
         // A side lies half in the wedge before its spoke, half in that after it.
-        let mut half_before = 0.0;
-        for ((&u, &v), Wedge { cos, cosecant, .. }) in lengths.iter().zip(after).zip(&*wedges) {
-            sides.push(half_before + 0.5 * (v - u * cos) * cosecant);
-            half_before = 0.5 * (u - v * cos) * cosecant;
+        let [last_half, mut half_before] = closing.halves(*last, *first);
+        for (pair, wedge) in lengths.windows(2).zip(&*wedges) {
+            let [half, half_after] = wedge.halves(pair[0], pair[1]);
+            sides.push(half_before + half);
+            half_before = half_after;
         }
-        sides[0] += half_before;
+        sides.push(half_before + last_half);
         // Each side makes a triangle with the vertex, half a spoke high.
         0.25 * lengths.iter().zip(sides).map(|(length, side)| length * *side).sum::<f64>()
     }

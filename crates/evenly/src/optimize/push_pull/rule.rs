@@ -84,12 +84,11 @@ fn equalize(star: &mut Star, tolerance: f64, relaxation: f64) -> bool {
         *side = 0.0;
     }
     let squares: f64 = sides.iter().map(|side| side * side).sum();
-    if squares == 0.0 {
-        return false;
-    }
-    let pressure = -excess * MEAN_CAPACITY / squares;
-    for (length, side) in lengths.iter_mut().zip(sides) {
-        *length += relaxation * 2.0 * pressure * *side;
+    if squares > 0.0 {
+        let pressure = -excess * MEAN_CAPACITY / squares;
+        for (length, side) in lengths.iter_mut().zip(sides) {
+            *length += relaxation * 2.0 * pressure * *side;
+        }
     }
     true
 }
