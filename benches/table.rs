@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use evenly::{
     Error, Measures, Mode, Outcome, Phase, PointSet, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext,
-    Space, Torus, measure, procrustes, push_pull, warp, warp_isotropic, white,
+    Space, Torus, WellSpacedParams, measure, procrustes, push_pull, warp, warp_isotropic, well_spaced, white,
 };
 use peak_alloc::PeakAlloc;
 
@@ -75,6 +75,12 @@ fn of_push_pull(is_quick: bool) {
     }
     let shown: Vec<String> = visits.iter().map(|(n, visits)| format!("{n}: {visits:.1}")).collect();
     println!("| Push-Pull {{0.85, 0.67}}, visits a point | within 30 % | {} |", shown.join(", "));
+    well_spacing(10_000, 5, 0.75, "<= 60 sweeps, bond order <= .50, <= 30 delaunator runs");
+    well_spacing(10_000, 5, 0.70, "reached, bond order <= .56, 0 obtuse triangles");
+    well_spacing(10_000, 2, 0.67, "reached, bond order < .60");
+    if !is_quick {
+        well_spacing(100_000, 2, 0.70, "reached, bond order <= .56, 0 obtuse triangles");
+    }
 }
 
 fn torus() -> Space {
@@ -240,6 +246,30 @@ fn targets(n: usize, n_seeds: u64, is_warped: bool, params: &PushPullParams, mus
         -most(|m| -m.min_angle_deg),
         most(|m| m.max_angle_deg),
         visits as f64 / n as f64,
+    );
+}
+
+/// Whether a ratio is reached, what it costs, and how regular the points become.
+fn well_spacing(n: usize, n_seeds: u64, beta: f64, must: &str) {
+    let params = WellSpacedParams { beta, ..WellSpacedParams::default() };
+    let runs: Vec<(Measures, Run, f64)> = (1..=n_seeds)
+        .map(|seed| {
+            let start = white(torus(), n, seed).unwrap();
+            let unit = delaunator(&start).as_secs_f64();
+            let run = pool(1).install(|| timed(start, warp_isotropic, |points, context| well_spaced(points, &params, context)));
+            (measure(&run.points).unwrap(), run, unit)
+        })
+        .collect();
+    let reached = runs.iter().filter(|(m, _, _)| m.beta <= beta).count();
+    let most = |value: fn(&(Measures, Run, f64)) -> f64| runs.iter().map(value).fold(f64::MIN, f64::max);
+    println!(
+        "| Well-spaced, beta {beta}, n = {n} | {must} | {reached} of {n_seeds}, bond order <= {:.3}, {:.2} % obtuse, <= {:.0} visits a point in <= {:.0} passes, <= {:.1} \
+         delaunator runs |",
+        most(|(m, _, _)| m.bond_order),
+        100.0 * most(|(m, _, _)| m.obtuse_fraction),
+        most(|(m, run, _)| run.report.visits as f64 / m.n_points as f64),
+        most(|(_, run, _)| run.report.iterations as f64),
+        most(|(_, run, unit)| run.total.as_secs_f64() / unit),
     );
 }
 

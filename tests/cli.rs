@@ -197,6 +197,20 @@ fn push_pull_reaches_its_targets_and_reports_its_passes() {
 }
 
 #[test]
+fn well_spaced_points_come_with_a_certificate() {
+    let shell = Shell::new();
+    let output = shell.run("generate -n 2000 --method well-spaced --beta 0.7 -o a.txt --report run.json");
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no triangle is obtuse; all angles lie within 45."));
+    let record = json(&shell.read("run.json"));
+    assert_eq!((&record["parameters"]["beta"], &record["method"]), (&json("0.7"), &json("\"well-spaced\"")));
+    assert!(record["measures"]["beta"].as_f64().unwrap() <= 0.7 && record["angle_bounds_deg"][1].as_f64().unwrap() < 90.0);
+    assert_eq!(shell.run("optimize a.txt --method well-spaced --beta 0.6 -i 5 -o b.txt").status.code(), Some(1));
+    // Ten points meet the ratio, though not the distance and the radius that were aimed at.
+    shell.ok("generate -n 10 --method well-spaced --beta 0.9 -o c.txt");
+}
+
+#[test]
 fn targets_that_are_not_reached_are_told_with_what_was_measured() {
     let shell = Shell::new();
     let output = shell.run("generate -n 500 --method push-pull --min-distance 0.97 --coverage-radius 0.6 -i 40 -o a.txt --report run.json");
@@ -305,6 +319,9 @@ fn bad_input_gets_one_line_and_no_file() {
         ("generate -n 10 -o o.txt --method push-pull --preset nonsense", "nonsense"),
         ("generate -n 10 -o o.txt --method push-pull --side 1", "--side is for --method procrustes"),
         ("generate -n 10 -o o.txt --preset tough", "--preset is for --method push-pull"),
+        ("generate -n 10 -o o.txt --method well-spaced --beta 0.5", "--beta is 0.5"),
+        ("generate -n 10 -o o.txt --method well-spaced --relaxation 1.1", "--relaxation is for --method push-pull"),
+        ("generate -n 10 -o o.txt --method push-pull --beta 0.75", "--beta is for --method well-spaced"),
         ("generate -n 10 -o o.txt --method white --mode fast", "--mode is for --method procrustes"),
         ("optimize good.txt -o o.txt --method warp -i 3", "--iterations is for"),
         ("optimize good.txt -o o.txt --method warp --no-warp", "--no-warp is for"),

@@ -4,7 +4,7 @@
 
 use evenly::{
     Measures, Mode, Outcome, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Torus,
-    jittered, measure, procrustes, push_pull, warp, warp_isotropic, white,
+    WellSpacedParams, jittered, measure, procrustes, push_pull, warp, warp_isotropic, well_spaced, white,
 };
 
 const SEEDS: std::ops::Range<u64> = 0..5;
@@ -189,4 +189,24 @@ fn a_relaxation_that_diverges_is_given_up() {
     let params = PushPullParams { min_distance: Some(0.94), coverage_radius: Some(0.65), relaxation: 1.2, ..PushPullParams::default() };
     let (_, report) = pushed(torus(), 1024, 1, &params, true);
     assert!(report.notes.iter().any(|note| note.contains("relaxation 1.2 had made no progress")), "{:?}", report.notes);
+}
+
+/// Better than Opt-beta itself, which stalls at 0.8: the published sets have 0.75 at best.
+#[test]
+fn well_spaced_points_reach_their_ratio() {
+    for (n, seeds, beta, bond_order, visits) in
+        [(10_000, 5, 0.75, 0.50, 20), (10_000, 5, 0.70, 0.56, 50), (100_000, 2, 0.70, 0.56, 50), (10_000, 1, 0.67, 0.61, 600)]
+    {
+        for seed in 1..=seeds {
+            let mut points = white(torus(), n, seed).unwrap();
+            warp_isotropic(&mut points);
+            let params = WellSpacedParams { beta, ..WellSpacedParams::default() };
+            let report = well_spaced(&mut points, &params, &mut RunContext::default()).unwrap();
+            let m = measure(&points).unwrap();
+            let case = format!("{n}, {seed}, {beta}: {:?}, {m:?}", report.outcome);
+            assert!(report.outcome == Outcome::Converged && m.beta <= beta, "{case}");
+            assert!(m.bond_order <= bond_order && report.visits <= visits * n, "{case}, {}", report.visits / n);
+            assert!(beta > 0.70 || m.obtuse_fraction == 0.0, "{case}");
+        }
+    }
 }

@@ -4,7 +4,7 @@
 
 use evenly::{
     CancelToken, Mode, Outcome, PointSet, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space,
-    Torus, hexagonal, jittered, measure, procrustes, push_pull, tessellate, warp, white,
+    Torus, WellSpacedParams, angle_bounds_deg, hexagonal, jittered, measure, procrustes, push_pull, tessellate, warp, well_spaced, white,
 };
 use proptest::prelude::*;
 
@@ -13,6 +13,7 @@ use proptest::prelude::*;
 enum Method {
     Procrustes(ProcrustesParams),
     PushPull(PushPullParams),
+    WellSpaced(WellSpacedParams),
 }
 
 impl Method {
@@ -21,7 +22,8 @@ impl Method {
         let plain = ProcrustesParams { mode: Mode::Paper, ..params };
         let easy = PushPullParams { max_passes: Some(300), ..PushPullParams::preset(PushPullPreset::Fast) };
         let summed = PushPullParams { schedule: Schedule::Summed, relaxation: 0.5, ..easy };
-        vec![Self::Procrustes(params), Self::Procrustes(plain), Self::PushPull(easy), Self::PushPull(summed)]
+        let spaced = WellSpacedParams { beta: 0.9, max_passes: Some(300), ..WellSpacedParams::default() };
+        vec![Self::Procrustes(params), Self::Procrustes(plain), Self::PushPull(easy), Self::PushPull(summed), Self::WellSpaced(spaced)]
     }
 
     fn run(self, points: &mut PointSet) -> Report {
@@ -32,6 +34,7 @@ impl Method {
         match self {
             Self::Procrustes(params) => procrustes(points, &params, run).unwrap(),
             Self::PushPull(params) => push_pull(points, &params, run).unwrap(),
+            Self::WellSpaced(params) => well_spaced(points, &params, run).unwrap(),
         }
     }
 }
@@ -284,6 +287,7 @@ fn shifting_and_scaling_at_will_change_only_the_rounding() {
                     }
                     assert!((plain.mean_distance - moved.mean_distance).abs() < 0.02);
                 }
+                Method::WellSpaced(params) => assert!(plain.beta <= params.beta && moved.beta <= params.beta + 1e-6),
             }
         }
     }
@@ -406,6 +410,11 @@ fn bad_parameters_are_refused_and_leave_the_points_alone() {
         assert!(push_pull(&mut points, &params, &mut RunContext::default()).is_err(), "{params:?}");
         assert_eq!(points, before);
     }
+    for beta in [0.0, 0.577, 2.1, -1.0, f64::NAN, f64::INFINITY] {
+        let mut points = white(spaces()[0], 100, 0).unwrap();
+        let params = WellSpacedParams { beta, ..WellSpacedParams::default() };
+        assert!(well_spaced(&mut points, &params, &mut RunContext::default()).is_err(), "{beta}");
+    }
     for size in [[0.0, 1.0], [1.0, -1.0], [f64::NAN, 1.0], [1.0, f64::INFINITY], [1.0, 1e9]] {
         assert!(Torus::new([0.0, 0.0], size).is_err() && Rectangle::new([0.0, 0.0], size).is_err());
     }
@@ -429,6 +438,28 @@ fn targets_out_of_reach_are_warned_of_and_told() {
     let unmet = params.unmet(&measure(&points).unwrap());
     assert_eq!(unmet.iter().map(|target| target.name).collect::<Vec<_>>(), ["min_distance", "coverage_radius", "capacity_tolerance"]);
     assert!(unmet.iter().all(|target| target.measured.is_finite()));
+}
+
+/// Ebeida et al., proposition 6.4: no angle is below asin(1 / (2 beta)), in any state; and a vertex with k neighbours needs a beta that grows with k's
+/// distance from 6.
+#[test]
+fn beta_bounds_angles_and_valences() {
+    for space in [spaces()[0], spaces()[3]] {
+        for beta in [0.99, 0.85, 0.78, 0.75, 0.70] {
+            let mut points = white(space, 2000, 5).unwrap();
+            warp(&mut points);
+            well_spaced(&mut points, &WellSpacedParams { beta, ..WellSpacedParams::default() }, &mut RunContext::default()).unwrap();
+            let m = measure(&points).unwrap();
+            let [least, most] = angle_bounds_deg(m.beta).unwrap();
+            assert!(m.min_angle_deg >= least - 1e-6 && m.max_angle_deg <= most + 1e-6, "{space}, {beta}: {m:?}");
+            assert!(m.beta >= std::f64::consts::FRAC_1_SQRT_2 || m.obtuse_fraction == 0.0);
+            for &k in m.valence.keys() {
+                let turn = std::f64::consts::TAU / k as f64;
+                let needed = if k < 6 { 0.5 / (0.5 * turn).cos() } else { 0.5 / turn.sin() };
+                assert!(k == 6 || m.beta >= needed - 1e-6, "{space}, {beta}: {k} neighbours need {needed}");
+            }
+        }
+    }
 }
 
 /// The best state is never worse than the start, and out of reach not worse than what is in reach.

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use anyhow::{anyhow, bail};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use evenly::{Error, MAX_POINTS, Mode, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Schedule, Space, Torus};
+use evenly::{
+    Error, MAX_POINTS, Mode, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Schedule, Space, Torus, WellSpacedParams,
+};
 use evenly_io::{Draw, Format};
 
 use crate::optimizer::Optimizer;
@@ -129,13 +131,15 @@ pub struct OptimizerArgs {
     /// Keep the start's own long density waves; without it white noise, and any input, is evened out first
     #[arg(long)]
     pub no_warp: bool,
-    /// Stop after so many iterations or passes in any case [default: 500; push-pull: 2000, more for more than 1000 points]
+    /// Stop after so many iterations or passes in any case [default: 500; push-pull and well-spaced: 2000, more for more than 1000 points]
     #[arg(short, long, value_name = "I", allow_negative_numbers = true)]
     iterations: Option<usize>,
     #[command(flatten)]
     procrustes: ProcrustesArgs,
     #[command(flatten)]
     push_pull: PushPullArgs,
+    #[command(flatten)]
+    well_spaced: WellSpacedArgs,
 }
 
 #[derive(Args)]
@@ -145,7 +149,7 @@ struct ProcrustesArgs {
     #[arg(long, value_enum, hide_possible_values = true)]
     mode: Option<ModeArg>,
     /// Side of the model triangle in hexagonal spacings, good within 1 to 1.625 [default: 1.5]
-    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", allow_negative_numbers = true, hide_short_help = true)]
     side: Option<f64>,
     /// Stop when an iteration (fast: two in a row) gains less than this share of the domain's area [default: 0.00002]
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
@@ -172,8 +176,16 @@ struct PushPullArgs {
     #[arg(long, value_name = "W", allow_negative_numbers = true)]
     relaxation: Option<f64>,
     /// in-turn: points move at each visit; summed: at the end of a pass, the paper's parallel variant [default: in-turn]
-    #[arg(long, value_enum, hide_possible_values = true)]
+    #[arg(long, value_enum, hide_possible_values = true, hide_short_help = true)]
     schedule: Option<ScheduleArg>,
+}
+
+#[derive(Args)]
+#[command(next_help_heading = "Well-spaced")]
+struct WellSpacedArgs {
+    /// Coverage radius over smallest distance: below 0.707 no triangle is obtuse; on a torus 0.67 is reached, in a rectangle 0.72 [default: 0.75]
+    #[arg(long, value_name = "B", allow_negative_numbers = true)]
+    beta: Option<f64>,
 }
 
 /// A number, or none.
@@ -218,6 +230,8 @@ pub enum GenerateMethod {
     Procrustes,
     /// Push-pull optimization (Ahmed, Guo, Yan et al.)
     PushPull,
+    /// Low beta, the ratio of the largest gap to the smallest distance (Ebeida et al.)
+    WellSpaced,
     /// Independent uniform points
     White,
     /// One point in each cell of a grid
@@ -232,6 +246,8 @@ pub enum OptimizeMethod {
     Procrustes,
     /// Push-pull optimization (Ahmed, Guo, Yan et al.)
     PushPull,
+    /// Low beta, the ratio of the largest gap to the smallest distance (Ebeida et al.)
+    WellSpaced,
     /// Even out long density waves, and nothing else
     Warp,
 }
@@ -322,6 +338,7 @@ impl SpaceArgs {
 impl OptimizerArgs {
     pub fn procrustes(&self) -> anyhow::Result<Optimizer> {
         refuse(self.push_pull.given(), "push-pull")?;
+        refuse(self.well_spaced.given(), "well-spaced")?;
         let ProcrustesArgs { mode, side, tolerance } = self.procrustes;
         let mut params = ProcrustesParams::default();
         set(&mut params.mode, mode.map(Into::into));
@@ -334,6 +351,7 @@ impl OptimizerArgs {
 
     pub fn push_pull(&self, seed: u64) -> anyhow::Result<Optimizer> {
         refuse(self.procrustes.given(), "procrustes")?;
+        refuse(self.well_spaced.given(), "well-spaced")?;
         let PushPullArgs { preset, min_distance, coverage_radius, capacity_tolerance, relaxation, schedule } = self.push_pull;
         let mut params = PushPullParams::preset(preset.map(Into::into).unwrap_or_default());
         let given = [min_distance, coverage_radius, capacity_tolerance].into_iter().flatten();
@@ -354,12 +372,22 @@ impl OptimizerArgs {
         Ok(Optimizer::PushPull(params))
     }
 
+    pub fn well_spaced(&self, seed: u64) -> anyhow::Result<Optimizer> {
+        refuse(self.procrustes.given(), "procrustes")?;
+        refuse(self.push_pull.given(), "push-pull")?;
+        let mut params = WellSpacedParams { max_passes: self.iterations, seed, ..WellSpacedParams::default() };
+        set(&mut params.beta, self.well_spaced.beta);
+        params.validate().map_err(by_flag)?;
+        Ok(Optimizer::WellSpaced(params))
+    }
+
     /// For a method that is no optimiser.
     pub fn none(&self) -> anyhow::Result<()> {
         refuse(self.procrustes.given(), "procrustes")?;
         refuse(self.push_pull.given(), "push-pull")?;
-        refuse(self.iterations.map(|_| "iterations"), "procrustes or push-pull")?;
-        refuse(self.no_warp.then_some("no-warp"), "procrustes or push-pull")
+        refuse(self.well_spaced.given(), "well-spaced")?;
+        refuse(self.iterations.map(|_| "iterations"), OPTIMIZERS)?;
+        refuse(self.no_warp.then_some("no-warp"), OPTIMIZERS)
     }
 }
 
@@ -368,6 +396,13 @@ impl ProcrustesArgs {
     fn given(&self) -> Option<&'static str> {
         let flags = [("mode", self.mode.is_some()), ("side", self.side.is_some()), ("tolerance", self.tolerance.is_some())];
         flags.into_iter().find(|&(_, is_given)| is_given).map(|(name, _)| name)
+    }
+}
+
+impl WellSpacedArgs {
+    /// Its flag, if it was given.
+    fn given(&self) -> Option<&'static str> {
+        self.beta.map(|_| "beta")
     }
 }
 
@@ -385,6 +420,9 @@ impl PushPullArgs {
         flags.into_iter().find(|&(_, is_given)| is_given).map(|(name, _)| name)
     }
 }
+
+/// Those that take `--start`, `--iterations` and `--no-warp`.
+pub const OPTIMIZERS: &str = "procrustes, push-pull or well-spaced";
 
 /// The same error, with the name that the user knows.
 fn by_flag(error: Error) -> anyhow::Error {

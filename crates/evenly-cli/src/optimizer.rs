@@ -1,8 +1,8 @@
 //! The optimisers behind one face: which one runs, with which parameters, and what it was asked to reach.
 
 use evenly::{
-    Error, Measures, PointSet, ProcrustesParams, PushPullParams, Report, RunContext, Space, UnmetTarget, procrustes, push_pull, warp,
-    warp_isotropic,
+    Error, Measures, PointSet, ProcrustesParams, PushPullParams, Report, RunContext, Space, UnmetTarget, WellSpacedParams, procrustes,
+    push_pull, warp, warp_isotropic, well_spaced,
 };
 use serde::Serialize;
 
@@ -11,6 +11,7 @@ use serde::Serialize;
 pub enum Optimizer {
     Procrustes(ProcrustesParams),
     PushPull(PushPullParams),
+    WellSpaced(WellSpacedParams),
 }
 
 impl Optimizer {
@@ -18,6 +19,7 @@ impl Optimizer {
         match self {
             Self::Procrustes(_) => "procrustes",
             Self::PushPull(_) => "push-pull",
+            Self::WellSpaced(_) => "well-spaced",
         }
     }
 
@@ -26,6 +28,7 @@ impl Optimizer {
         match self {
             Self::Procrustes(_) => None,
             Self::PushPull(params) => Some(params.seed),
+            Self::WellSpaced(params) => Some(params.seed),
         }
     }
 
@@ -33,7 +36,7 @@ impl Optimizer {
     pub fn warp(&self, points: &mut PointSet) {
         match self {
             Self::Procrustes(_) => warp(points),
-            Self::PushPull(_) => warp_isotropic(points),
+            Self::PushPull(_) | Self::WellSpaced(_) => warp_isotropic(points),
         }
     }
 
@@ -41,6 +44,7 @@ impl Optimizer {
         match self {
             Self::Procrustes(params) => procrustes(points, params, run),
             Self::PushPull(params) => push_pull(points, params, run),
+            Self::WellSpaced(params) => well_spaced(points, params, run),
         }
     }
 
@@ -49,6 +53,7 @@ impl Optimizer {
         match self {
             Self::Procrustes(_) => None,
             Self::PushPull(params) => params.advice(space),
+            Self::WellSpaced(params) => params.advice(space),
         }
     }
 
@@ -57,6 +62,7 @@ impl Optimizer {
         match self {
             Self::Procrustes(_) => None,
             Self::PushPull(params) => Some(params.unmet(measures)),
+            Self::WellSpaced(params) => Some(params.unmet(measures).into_iter().collect()),
         }
     }
 }

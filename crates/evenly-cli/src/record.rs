@@ -24,6 +24,9 @@ pub struct Record {
     /// Absent for fewer than three points, or all on one line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
+    /// Between which beta certifies all angles to lie; absent from 1 on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_bounds_deg: Option<[f64; 2]>,
     /// The targets that were not reached; absent for a method that has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unmet: Option<Vec<UnmetTarget>>,

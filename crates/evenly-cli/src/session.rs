@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
+use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, angle_bounds_deg, measure};
 use evenly_io::{Draw, Target, write_points};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -151,7 +151,7 @@ impl<'a> Session<'a> {
 
     /// Measures the points, writes them and the record, and says how it went.
     pub fn finish(mut self, points: PointSet, method: &str, run: Option<Report>) -> anyhow::Result<ExitCode> {
-        let has_targets = matches!(self.optimizer, Some(Optimizer::PushPull(_)));
+        let has_targets = matches!(self.optimizer, Some(Optimizer::PushPull(_) | Optimizer::WellSpaced(_)));
         let is_wanted = !self.args.quiet || self.args.json || self.report.is_some() || has_targets;
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
         let unmet = match (&self.optimizer, &measures) {
@@ -180,6 +180,7 @@ impl<'a> Session<'a> {
             parameters: self.optimizer,
             run,
             seconds: self.seconds,
+            angle_bounds_deg: measures.as_ref().and_then(|m| angle_bounds_deg(m.beta)),
             measures,
             unmet,
             notes: self.notes,
@@ -220,6 +221,11 @@ impl<'a> Session<'a> {
             eprintln!(
                 "in hexagonal spacings of {spacing:.4e}: min distance {:.3}, coverage radius {:.3}, beta {beta:.3}; {angles}",
                 m.min_distance, m.coverage_radius
+            );
+        }
+        if let Some([least, most]) = measures.and_then(|m| angle_bounds_deg(m.beta)).filter(|bounds| bounds[1] <= 90.0) {
+            eprintln!(
+                "certificate: as beta is below 0.7071, no triangle is obtuse; all angles lie within {least:.2} and {most:.2} degrees"
             );
         }
         if self.args.verbose {

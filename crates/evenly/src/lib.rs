@@ -28,7 +28,10 @@ mod triangulation;
 
 pub use error::Error;
 pub use measure::{BorderMeasures, Measures, Tessellation, measure, tessellate};
-pub use optimize::{Mode, ProcrustesParams, PushPullParams, PushPullPreset, UnmetTarget, procrustes, push_pull};
+pub use optimize::{
+    Mode, ProcrustesParams, PushPullParams, PushPullPreset, UnmetTarget, WellSpacedParams, angle_bounds_deg, procrustes, push_pull,
+    well_spaced,
+};
 pub use points::{MAX_POINTS, PointSet, hexagonal, jittered, warp, warp_isotropic, white};
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Space, Torus};

@@ -139,6 +139,13 @@ pub struct Report {
 }
 
 impl Report {
+    /// Says where a sweep was ended by the limit.
+    pub(crate) fn note_limit(&mut self) {
+        if self.outcome == Outcome::IterationLimit {
+            self.notes.push(format!("stopped after {} passes; the best state is kept", self.iterations));
+        }
+    }
+
     pub(crate) fn new(method: &'static str, n_points: usize) -> Self {
         Self {
             method,

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use evenly::{PointSet, Space, hexagonal, jittered, white};
 
-use crate::args::{Generate, GenerateMethod, Start, refuse};
+use crate::args::{Generate, GenerateMethod, OPTIMIZERS, Start, refuse};
 use crate::session::Session;
 
 pub fn run(args: &Generate) -> anyhow::Result<ExitCode> {
@@ -12,13 +12,14 @@ pub fn run(args: &Generate) -> anyhow::Result<ExitCode> {
     let (optimizer, start) = match args.method {
         GenerateMethod::Procrustes => (Some(args.optimizer.procrustes()?), args.start.unwrap_or(Start::White)),
         GenerateMethod::PushPull => (Some(args.optimizer.push_pull(args.seed)?), args.start.unwrap_or(Start::White)),
+        GenerateMethod::WellSpaced => (Some(args.optimizer.well_spaced(args.seed)?), args.start.unwrap_or(Start::White)),
         GenerateMethod::White => (None, Start::White),
         GenerateMethod::Jittered => (None, Start::Jittered),
         GenerateMethod::Hexagonal => (None, Start::Hexagonal),
     };
     if optimizer.is_none() {
         args.optimizer.none()?;
-        refuse(args.start.map(|_| "start"), "procrustes or push-pull")?;
+        refuse(args.start.map(|_| "start"), OPTIMIZERS)?;
     }
     let mut session = Session::new(&args.run, Some(args.seed))?;
     let points = session.time("start", || begin(start, space, args.n_points, args.seed))?;

@@ -13,6 +13,7 @@ pub fn run(args: &Optimize) -> anyhow::Result<ExitCode> {
     let optimizer = match args.method {
         OptimizeMethod::Procrustes => Some(args.optimizer.procrustes()?),
         OptimizeMethod::PushPull => Some(args.optimizer.push_pull(args.seed)?),
+        OptimizeMethod::WellSpaced => Some(args.optimizer.well_spaced(args.seed)?),
         OptimizeMethod::Warp => {
             args.optimizer.none()?;
             None

@@ -243,9 +243,20 @@ pub fn push_pull(points: &mut PointSet, params: &PushPullParams, run: &mut RunCo
     params.validate()?;
     let mut report = Report::new("push-pull", points.n_points());
     report.notes.extend(params.advice(points.space()));
+    push_and_pull(points, params, run, &mut report)?;
+    report.note_limit();
+    Ok(report)
+}
 
+/// As [`push_pull`], for whichever method.
+pub(super) fn push_and_pull(
+    points: &mut PointSet,
+    params: &PushPullParams,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> Result<(), Error> {
     // Distinct points, and their Delaunay triangulation.
-    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, &mut report, run)? else { return Ok(report) };
+    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, report, run)? else { return Ok(()) };
     run.enter(Phase::Triangulate);
     let mut sweep = Sweep::new(LiveMesh::new(&domain, positions, order, spacing)?);
     report.triangulations = 1;
@@ -264,7 +275,7 @@ pub fn push_pull(points: &mut PointSet, params: &PushPullParams, run: &mut RunCo
     if let Some((distance, radius)) = params.nearest_known(points.space()) {
         let known =
             PushPull { min_distance: rule.min_distance.map(|_| distance), coverage_radius: rule.coverage_radius.map(|_| radius), ..rule };
-        if settle(&mut sweep, known, params, &plan, run, &mut report)? != Ending::Converged {
+        if settle(&mut sweep, known, params, &plan, run, report)? != Ending::Converged {
             sweep.return_to_best()?;
         }
         fallback = Some(sweep.change_rule(report.iterations));
@@ -272,18 +283,18 @@ pub fn push_pull(points: &mut PointSet, params: &PushPullParams, run: &mut RunCo
     }
 
     // Visits, until no point has to move another.
-    let ending = settle(&mut sweep, rule, params, &plan, run, &mut report)?;
+    let ending = settle(&mut sweep, rule, params, &plan, run, report)?;
     report.outcome = match ending {
         Ending::Converged => Outcome::Converged,
         Ending::Cancelled => Outcome::Cancelled,
         Ending::PassLimit | Ending::Diverging | Ending::Stuck => Outcome::IterationLimit,
     };
-    let best = sweep.into_best();
+    let (order, best) = sweep.into_best();
     if report.outcome == Outcome::Converged {
-        points.place(&domain, &best.order, &best.places);
+        points.place(&domain, &order, &best);
     } else {
-        let states = [Some(best.places), fallback].into_iter().flatten();
-        *points = nearest_to_targets(points, params, states.map(|places| points.moved(&domain, &best.order, &places)).collect());
+        let states = [Some(best), fallback].into_iter().flatten();
+        *points = nearest_to_targets(points, params, states.map(|places| points.moved(&domain, &order, &places)).collect());
     }
     if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
         report.outcome = Outcome::LostToRounding;
@@ -291,16 +302,10 @@ pub fn push_pull(points: &mut PointSet, params: &PushPullParams, run: &mut RunCo
             .notes
             .push("the targets were reached, but lost in rounding to coordinates so far from 0; move the origin nearer to it".into());
     }
-    if report.outcome == Outcome::IterationLimit {
-        let share = 100.0 * best.stable_share;
-        report
-            .notes
-            .push(format!("stopped after {} passes; in the best of them {share:.2} % of the points were at rest", report.iterations));
-    }
     if report.outcome != Outcome::Converged || params.min_distance.is_none() {
         keep_distinct(points);
     }
-    Ok(report)
+    Ok(())
 }
 
 /// Sweeps, and where a large relaxation leads nowhere, once more with a safe one.

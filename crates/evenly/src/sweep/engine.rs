@@ -63,19 +63,9 @@ pub(crate) struct Sweep {
 /// The state after the pass that found the least wrong.
 struct Best {
     wrong: f64,
-    n_unstable: usize,
     /// The pass, counted from 1; 0 for the start.
     pass: usize,
     places: Vec<DVec2>,
-}
-
-/// What a sweep leaves behind.
-pub(crate) struct BestState {
-    /// The share of points at which the rule had nothing to do.
-    pub stable_share: f64,
-    pub places: Vec<DVec2>,
-    /// The caller's index of each point.
-    pub order: Vec<u32>,
 }
 
 /// A state is kept as the best if it has less than this share of what is wrong with the one that is kept: copies cost time.
@@ -94,7 +84,7 @@ const RENEWAL: usize = 64;
 impl Best {
     /// The state of the mesh after so many passes, of which nothing is known yet.
     fn start(mesh: &LiveMesh, pass: usize) -> Self {
-        Self { wrong: f64::INFINITY, n_unstable: mesh.n_points(), pass, places: mesh.points() }
+        Self { wrong: f64::INFINITY, pass, places: mesh.points() }
     }
 }
 
@@ -194,7 +184,7 @@ impl Sweep {
         // The longest move that was asked for is about the worst miss; but while points find their places, the rest counts as well.
         let wrong = work.unrest.longest * work.unrest.squares.sqrt();
         if wrong < BETTER * self.best.wrong || work.unrest.is_none() {
-            self.best = Best { wrong, n_unstable: work.n_unstable, pass, places: self.mesh.points() };
+            self.best = Best { wrong, pass, places: self.mesh.points() };
         }
     }
 
@@ -214,11 +204,9 @@ impl Sweep {
         self.mesh.rebuild(self.best.places.clone())
     }
 
-    /// The best state.
-    pub fn into_best(self) -> BestState {
-        let Best { n_unstable, places, .. } = self.best;
-        let stable_share = 1.0 - n_unstable as f64 / self.mesh.n_points() as f64;
-        BestState { stable_share, places, order: self.mesh.into_order() }
+    /// The caller's index of each point, and its place in the best state.
+    pub fn into_best(self) -> (Vec<u32>, Vec<DVec2>) {
+        (self.mesh.into_order(), self.best.places)
     }
 
     /// Unstable points become fewer about exponentially.
@@ -264,8 +252,8 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
         let ending = pool.install(|| sweep.run(&Smooth, &plan, &mut RunContext::default(), &mut report)).unwrap();
         assert_eq!((ending, report.iterations), (Ending::PassLimit, 30));
-        let best = sweep.into_best();
-        points.place(&points.space().domain(), &best.order, &best.places);
+        let (order, places) = sweep.into_best();
+        points.place(&points.space().domain(), &order, &places);
         (points, report)
     }
 
@@ -295,8 +283,8 @@ mod tests {
         let ending = sweep.run(&Smooth, &plan, &mut RunContext::default().with_cancel(cancel), &mut report).unwrap();
         assert_eq!((ending, report.iterations), (Ending::Cancelled, 0));
         let mut after = points.clone();
-        let best = sweep.into_best();
-        after.place(&points.space().domain(), &best.order, &best.places);
+        let (order, places) = sweep.into_best();
+        after.place(&points.space().domain(), &order, &places);
         assert_eq!(after, points);
     }
 }
