@@ -256,7 +256,7 @@ pub enum OptimizeMethod {
 pub enum Start {
     /// Independent uniform points
     White,
-    /// One point in each cell of a grid
+    /// One point in each cell of a grid, whose order outlives an optimiser as peaks in the spectrum
     Jittered,
     /// The hexagonal lattice
     Hexagonal,
