@@ -211,6 +211,23 @@ fn well_spaced_points_come_with_a_certificate() {
 }
 
 #[test]
+fn what_comes_in_better_goes_out_as_it_was() {
+    let shell = Shell::new();
+    let grid: String = (0..144).map(|k| format!("{} {}\n", (f64::from(k % 12) + 0.5) / 12.0, (f64::from(k / 12) + 0.5) / 12.0)).collect();
+    shell.write("grid.txt", &grid);
+    let output = shell.run("optimize grid.txt --space rect --method well-spaced --beta 0.6 -i 30 -o out.txt");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("the points that came in miss the targets by less"));
+    let numbers = |text: String| -> Vec<f64> {
+        text.lines()
+            .filter(|line| !line.starts_with('#'))
+            .flat_map(|line| line.split(' ').map(|x| x.parse().unwrap()).collect::<Vec<_>>())
+            .collect()
+    };
+    assert_eq!(numbers(shell.read("out.txt")), numbers(grid));
+}
+
+#[test]
 fn targets_that_are_not_reached_are_told_with_what_was_measured() {
     let shell = Shell::new();
     let output = shell.run("generate -n 500 --method push-pull --min-distance 0.97 --coverage-radius 0.6 -i 40 -o a.txt --report run.json");

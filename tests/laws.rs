@@ -440,6 +440,18 @@ fn targets_out_of_reach_are_warned_of_and_told() {
     assert!(unmet.iter().all(|target| target.measured.is_finite()));
 }
 
+/// Found by random runs: pulls that were longer than the way brought points together, to within rounding.
+#[test]
+fn a_run_that_is_stopped_early_keeps_points_apart() {
+    for beta in [0.6, 0.67] {
+        let mut points = white(spaces()[0], 5000, 0).unwrap();
+        warp(&mut points);
+        let params = WellSpacedParams { beta, max_passes: Some(24), ..WellSpacedParams::default() };
+        well_spaced(&mut points, &params, &mut RunContext::default()).unwrap();
+        assert!(measure(&points).unwrap().min_distance > 0.005, "{beta}");
+    }
+}
+
 /// Ebeida et al., proposition 6.4: no angle is below asin(1 / (2 beta)), in any state; and a vertex with k neighbours needs a beta that grows with k's
 /// distance from 6.
 #[test]

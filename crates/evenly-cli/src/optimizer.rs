@@ -57,6 +57,15 @@ impl Optimizer {
         }
     }
 
+    /// By how much points with these measures miss a target; 0 for a method that has none.
+    pub fn worst_miss(&self, measures: &Measures) -> f64 {
+        match self {
+            Self::Procrustes(_) => 0.0,
+            Self::PushPull(params) => params.worst_miss(measures),
+            Self::WellSpaced(params) => params.worst_miss(measures),
+        }
+    }
+
     /// The targets that points with these measures miss; `None` for a method that has none.
     pub fn unmet(&self, measures: &Measures) -> Option<Vec<UnmetTarget>> {
         match self {

@@ -96,6 +96,7 @@ impl<'a> Session<'a> {
         self.optimizer = Some(optimizer);
         self.seed = self.seed.or(optimizer.seed());
         let is_warped = is_warped && points.n_points() >= 3;
+        let start = (is_warped && !matches!(optimizer, Optimizer::Procrustes(_))).then(|| points.clone());
         if is_warped {
             self.time("warp", || optimizer.warp(&mut points));
         }
@@ -126,7 +127,20 @@ impl<'a> Session<'a> {
         if report.was_collinear {
             self.note("all points lay on one line and were spread first".into());
         }
+        if report.outcome != Outcome::Converged
+            && let Some(start) = start
+            && self.is_nearer(&start, &points, optimizer)
+        {
+            self.note("the points that came in miss the targets by less, and are written".into());
+            points = start;
+        }
         self.finish(points, optimizer.name(), Some(report))
+    }
+
+    /// Whether the first set misses the targets by less than the second.
+    fn is_nearer(&mut self, first: &PointSet, second: &PointSet, optimizer: Optimizer) -> bool {
+        let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| optimizer.worst_miss(&measures));
+        self.time("measure", || miss(first) < miss(second))
     }
 
     /// From here on Ctrl-C ends the run after the iteration at hand; before, there is nothing to keep.
@@ -166,6 +180,7 @@ impl<'a> Session<'a> {
             self.summarize(&points, run.as_ref(), measures.as_ref());
         }
         let outcome = run.as_ref().map(|run| run.outcome);
+        let is_unproved = unmet.is_none();
         let has_missed = unmet.as_ref().is_some_and(|unmet| !unmet.is_empty());
         for UnmetTarget { name, wanted, measured } in unmet.iter().flatten() {
             self.note(format!("not reached: {} is {measured:.6}, wanted {wanted}", name.replace('_', " ")));
@@ -194,8 +209,8 @@ impl<'a> Session<'a> {
         }
         Ok(match outcome {
             _ if self.cancel.is_cancelled() => ExitCode::from(INTERRUPTED),
-            Some(Outcome::IterationLimit | Outcome::LostToRounding) => ExitCode::from(NOT_REACHED),
             _ if has_missed => ExitCode::from(NOT_REACHED),
+            Some(Outcome::IterationLimit | Outcome::LostToRounding) if is_unproved => ExitCode::from(NOT_REACHED),
             _ => ExitCode::SUCCESS,
         })
     }

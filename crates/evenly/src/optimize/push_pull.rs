@@ -199,8 +199,8 @@ impl PushPullParams {
         nearest_known(self.min_distance, self.coverage_radius, self.capacity_tolerance, known)
     }
 
-    /// By how much these measures miss the target that they miss most, relative to it; the capacity relative to the mean.
-    fn worst_miss(&self, measures: &Measures) -> f64 {
+    /// By how much these measures miss the target that they miss most, relative to it, the capacity relative to the mean; 0 where all are met.
+    pub fn worst_miss(&self, measures: &Measures) -> f64 {
         let of_distance = self.min_distance.map(|wanted| 1.0 - measures.min_distance / wanted);
         let of_radius = self.coverage_radius.map(|wanted| measures.coverage_radius / wanted - 1.0);
         let of_capacity = self.capacity_tolerance.map(|wanted| measures.capacity_max_deviation - wanted);
@@ -295,6 +295,10 @@ pub(super) fn push_and_pull(
     } else {
         let states = [Some(best), fallback].into_iter().flatten();
         *points = nearest_to_targets(points, params, states.map(|places| points.moved(&domain, &order, &places)).collect());
+        let is_reached = measure(points).is_ok_and(|measures| params.unmet(&measures).is_empty());
+        if report.outcome == Outcome::IterationLimit && is_reached {
+            report.outcome = Outcome::Converged;
+        }
     }
     if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
         report.outcome = Outcome::LostToRounding;

@@ -78,6 +78,11 @@ impl WellSpacedParams {
         (!is_met).then_some(UnmetTarget { name: "beta", wanted: self.beta, measured: measures.beta })
     }
 
+    /// By how much these measures miss the ratio, relative to it; 0 where it is met.
+    pub fn worst_miss(&self, measures: &Measures) -> f64 {
+        (measures.beta / self.beta - 1.0).max(0.0)
+    }
+
     /// One distance and one radius for all.
     fn targets(&self) -> PushPullParams {
         let kappa = if self.beta < TOUGHEST { KAPPA } else { 1.0 };

@@ -9,6 +9,8 @@ use crate::triangulation::{LiveMesh, MIRROR, Outside, StarBuffer, Territory};
 const STILL: f64 = 1e-9;
 /// The longest move, in spacings.
 const LONGEST: f64 = 1.0;
+/// The part of its distance by which a neighbour may come nearer in one move: it does not run into the vertex, or through it.
+const NEARER: f64 = 0.75;
 
 /// The moves that a rule has asked for, in spacings.
 #[derive(Debug, Clone, Copy, Default)]
@@ -88,7 +90,7 @@ pub(super) fn ask(mesh: &LiveMesh, rule: &impl Rule, v: u32, territory: Territor
     unrest.add_move(STILL);
     let mut own: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
     for (spoke, length) in spokes.iter().zip(&star.lengths) {
-        let change = (length - spoke.length).clamp(-LONGEST, LONGEST);
+        let change = (length - spoke.length).clamp(-LONGEST.min(NEARER * spoke.length), LONGEST);
         if change.abs() <= STILL || spoke.length == 0.0 {
             continue;
         }

@@ -1,7 +1,7 @@
 //! Moving a vertex, lazily: its triangles must stay upright, that they are Delaunay is seen to where they are next read.
 //!
 //! Where a triangle would get thin or turn over, the vertex goes in stages, each nine tenths of the way to the first triangle that
-//! loses its area, and the edges around it are made Delaunay in between.
+//! loses its area, and the edges around it are made Delaunay in between. It stops where that flips nothing: another vertex is in its way.
 
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -74,13 +74,15 @@ impl LiveMesh {
     }
 
     fn go_in_stages(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        for _ in 0..MAX_STAGES {
+        for stage in 0..MAX_STAGES {
+            let n_flips = buffer.n_flips;
             self.restore(v, territory, &mut buffer.moving, &mut buffer.n_flips)?;
             self.soil(v);
             buffer.moving.iter().for_each(|spoke| self.soil(spoke.vertex));
             let from = self.mesh.position(v);
             let way = self.domain.spoke(from, target);
-            if way == DVec2::ZERO {
+            let is_blocked = stage > 0 && buffer.n_flips == n_flips;
+            if way == DVec2::ZERO || is_blocked {
                 return Ok(());
             }
             // Twice a triangle's area falls by t way x rim on the part t of the way.
