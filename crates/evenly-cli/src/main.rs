@@ -7,6 +7,7 @@ mod args;
 mod commands;
 mod input;
 mod optimizer;
+mod optimizer_args;
 mod record;
 mod session;
 

@@ -4,7 +4,8 @@ use std::process::ExitCode;
 
 use evenly::{PointSet, Space, hexagonal, jittered, white};
 
-use crate::args::{Generate, GenerateMethod, OPTIMIZERS, Start, refuse};
+use crate::args::{Generate, GenerateMethod, Start};
+use crate::optimizer_args::{OPTIMIZERS, refuse};
 use crate::session::Session;
 
 pub fn run(args: &Generate) -> anyhow::Result<ExitCode> {
