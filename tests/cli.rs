@@ -429,6 +429,18 @@ fn an_interrupt_writes_the_best_state() {
     assert_eq!(fs::metadata(shell.path("a.npy")).unwrap().len(), 16 * 300_000 + 128);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn talk_that_cannot_be_said_is_no_error() {
+    let shell = Shell::new();
+    let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let status = |line: &str| shell.command(line).stderr(full()).status().unwrap().code();
+    assert_eq!(status("generate -n 100 -v -o a.txt"), Some(0));
+    assert_eq!(status("generate -n 0 -o b.txt"), Some(2));
+    assert_eq!(status("optimize missing.txt -o b.txt"), Some(2));
+    assert_eq!(shell.files(), ["a.txt"]);
+}
+
 #[test]
 fn a_reader_that_leaves_early_is_no_error() {
     let shell = Shell::new();

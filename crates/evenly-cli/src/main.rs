@@ -10,6 +10,7 @@ mod optimizer;
 mod optimizer_args;
 mod record;
 mod session;
+mod talk;
 
 use std::process::ExitCode;
 
@@ -17,6 +18,7 @@ use clap::Parser as _;
 use clap::error::ErrorKind;
 
 use args::{Cli, Command};
+use talk::say;
 
 /// Bad usage or input.
 const BAD_INPUT: u8 = 2;
@@ -34,7 +36,7 @@ fn main() -> ExitCode {
         Command::Man => commands::shell::man(),
     };
     done.unwrap_or_else(|error| {
-        eprintln!("error: {error:#}");
+        say(format_args!("error: {error:#}"));
         ExitCode::from(BAD_INPUT)
     })
 }
@@ -45,11 +47,11 @@ fn usage(error: &clap::Error) -> ExitCode {
         return if error.print().is_ok() { ExitCode::SUCCESS } else { ExitCode::from(BAD_INPUT) };
     }
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        eprint!("{error}");
+        say(error.to_string().trim_end());
         return ExitCode::from(BAD_INPUT);
     }
     let text = error.to_string();
     let what: Vec<&str> = text.lines().take_while(|line| !line.trim().is_empty()).map(str::trim).collect();
-    eprintln!("{}; see --help", what.join(" "));
+    say(format_args!("{}; see --help", what.join(" ")));
     ExitCode::from(BAD_INPUT)
 }

@@ -12,6 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::args::RunArgs;
 use crate::optimizer::Optimizer;
 use crate::record::{self, Record};
+use crate::talk::say;
 
 /// Interrupted; the state reached is written.
 const INTERRUPTED: u8 = 130;
@@ -78,7 +79,7 @@ impl<'a> Session<'a> {
             return;
         }
         if !self.args.quiet {
-            eprintln!("note: {note}");
+            say(format_args!("note: {note}"));
         }
         self.notes.push(note);
     }
@@ -157,7 +158,7 @@ impl<'a> Session<'a> {
             }
             cancel.cancel();
             if !is_quiet {
-                eprintln!("interrupted: writing the state reached; once more to stop at once");
+                say("interrupted: writing the state reached; once more to stop at once");
             }
         };
         ctrlc::set_handler(on_interrupt).context("no handler for Ctrl-C")
@@ -225,7 +226,7 @@ impl<'a> Session<'a> {
             Some((Outcome::NothingToDo, _)) | None => String::new(),
         };
         let seed = self.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
-        eprintln!("{}: {} points{seed}{how}, {seconds:.2} s", self.output.name(), points.n_points());
+        say(format_args!("{}: {} points{seed}{how}, {seconds:.2} s", self.output.name(), points.n_points()));
         if let Some(m) = measures {
             let angles = if m.angle_rms_deg.is_nan() {
                 "no triangle".to_owned()
@@ -233,21 +234,21 @@ impl<'a> Session<'a> {
                 format!("angles {:.1} to {:.1} degrees (rms {:.2} from 60)", m.min_angle_deg, m.max_angle_deg, m.angle_rms_deg)
             };
             let (spacing, beta) = (m.hex_spacing, m.beta);
-            eprintln!(
+            say(format_args!(
                 "in hexagonal spacings of {spacing:.4e}: min distance {:.3}, coverage radius {:.3}, beta {beta:.3}; {angles}",
                 m.min_distance, m.coverage_radius
-            );
+            ));
         }
         if let Some([least, most]) = measures.and_then(|m| angle_bounds_deg(m.beta)).filter(|bounds| bounds[1] <= 90.0) {
-            eprintln!(
+            say(format_args!(
                 "certificate: as beta is below 0.7071, no triangle is obtuse; all angles lie within {least:.2} and {most:.2} degrees"
-            );
+            ));
         }
         if self.args.verbose {
             let phases: Vec<String> = self.seconds.iter().map(|(phase, s)| format!("{phase} {s:.3} s")).collect();
-            eprintln!("{}", phases.join(", "));
+            say(phases.join(", "));
             if let Some(run) = run {
-                eprintln!("{}", work(run));
+                say(work(run));
             }
         }
     }

@@ -8,6 +8,7 @@ use evenly::{Measures, measure};
 use evenly_io::{Draw, Format, Target, write_points};
 
 use crate::args::Analyze;
+use crate::talk::say;
 use crate::{input, record, session};
 
 pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
@@ -21,7 +22,7 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     }
     let (points, note) = input::read(&args.input, space)?;
     if let Some(note) = note {
-        eprintln!("note: {note}");
+        say(format_args!("note: {note}"));
     }
     let name = || args.input.display().to_string();
     let measures = session::pool(args.threads)?.install(|| measure(&points)).with_context(name)?;
