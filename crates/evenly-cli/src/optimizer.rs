@@ -23,6 +23,11 @@ impl Optimizer {
         }
     }
 
+    /// Whether it was asked to reach something that can be measured.
+    pub fn has_targets(&self) -> bool {
+        matches!(self, Self::PushPull(_) | Self::WellSpaced(_))
+    }
+
     /// What its own chance depends on.
     pub fn seed(&self) -> Option<u64> {
         match self {

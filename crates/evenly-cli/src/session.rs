@@ -97,7 +97,7 @@ impl<'a> Session<'a> {
         self.optimizer = Some(optimizer);
         self.seed = self.seed.or(optimizer.seed());
         let is_warped = is_warped && points.n_points() >= 3;
-        let start = (is_warped && !matches!(optimizer, Optimizer::Procrustes(_))).then(|| points.clone());
+        let start = (is_warped && optimizer.has_targets()).then(|| points.clone());
         if is_warped {
             self.time("warp", || optimizer.warp(&mut points));
         }
@@ -166,7 +166,7 @@ impl<'a> Session<'a> {
 
     /// Measures the points, writes them and the record, and says how it went.
     pub fn finish(mut self, points: PointSet, method: &str, run: Option<Report>) -> anyhow::Result<ExitCode> {
-        let has_targets = matches!(self.optimizer, Some(Optimizer::PushPull(_) | Optimizer::WellSpaced(_)));
+        let has_targets = self.optimizer.is_some_and(|optimizer| optimizer.has_targets());
         let is_wanted = !self.args.quiet || self.args.json || self.report.is_some() || has_targets;
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
         let unmet = match (&self.optimizer, &measures) {

@@ -12,7 +12,7 @@
 //! - The Delaunay property is restored where a star is read, not after each move; before a run counts as converged, everywhere.
 //! - In a rectangle a wall acts like the points' mirror images: cells end there, and the coverage radius counts walls and corners.
 //!
-//! Cost: O(n) in all, about 20 visits a point for {0.85, 0.67}, 60 for {0.90, 0.65} and 120 for {0.90, 0.63}. It does not promise that
+//! Cost: O(n) in all, about 20 visits a point for {0.85, 0.67}, 60 for {0.90, 0.65} and 150 for {0.90, 0.63}. It does not promise that
 //! any targets can be reached: what is known to be, is in the documentation of [`PushPullParams`].
 
 mod frontier;
@@ -58,7 +58,7 @@ pub struct PushPullParams {
     /// waves stay. Less than 0.0386 takes many more passes.
     pub capacity_tolerance: Option<f64>,
     /// The part of each move that is made; in (0, 2). More than 1 reaches tougher targets, and makes points more regular; where it
-    /// diverges the run goes on with 1. With [`Schedule::Summed`] it is half of that all through: 0.5 converges, and 1 does not.
+    /// diverges the run goes on with 1. With [`Schedule::Summed`] these are halved: 0.5 converges, and where 1 diverges the run goes on with 0.5.
     pub relaxation: f64,
     /// Whether points move at each visit, or at the end of a pass. The second is the paper's parallel variant: it takes several times the
     /// passes, fails at tougher targets, and makes points less regular.
@@ -277,6 +277,7 @@ pub(super) fn push_and_pull(
             PushPull { min_distance: rule.min_distance.map(|_| distance), coverage_radius: rule.coverage_radius.map(|_| radius), ..rule };
         if settle(&mut sweep, known, params, &plan, run, report)? != Ending::Converged {
             sweep.return_to_best()?;
+            report.triangulations += 1;
         }
         fallback = Some(sweep.change_rule(report.iterations));
         plan.ends_if_stuck = true;
@@ -294,8 +295,10 @@ pub(super) fn push_and_pull(
         points.place(&domain, &order, &best);
     } else {
         let states = [Some(best), fallback].into_iter().flatten();
-        *points = nearest_to_targets(points, params, states.map(|places| points.moved(&domain, &order, &places)).collect());
-        let is_reached = measure(points).is_ok_and(|measures| params.unmet(&measures).is_empty());
+        let states = states.map(|places| points.moved(&domain, &order, &places)).collect();
+        let measures;
+        (*points, measures) = nearest_to_targets(points, params, states);
+        let is_reached = measures.is_some_and(|measures| params.unmet(&measures).is_empty());
         if report.outcome == Outcome::IterationLimit && is_reached {
             report.outcome = Outcome::Converged;
         }
@@ -341,9 +344,12 @@ fn is_lost_to_rounding(points: &PointSet, params: &PushPullParams) -> bool {
     is_coarse && measure(points).is_ok_and(|measures| !params.unmet(&measures).is_empty())
 }
 
-/// Of the start and some states, that which misses a target by least.
-fn nearest_to_targets(start: &PointSet, params: &PushPullParams, states: Vec<PointSet>) -> PointSet {
-    let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| params.worst_miss(&measures));
-    let all = states.into_iter().chain([start.clone()]).map(|points| (miss(&points), points));
-    all.min_by(|(a, _), (b, _)| a.total_cmp(b)).map_or_else(|| start.clone(), |(_, points)| points)
+/// Of the start and some states, that which misses a target by least, and its measures.
+fn nearest_to_targets(start: &PointSet, params: &PushPullParams, states: Vec<PointSet>) -> (PointSet, Option<Measures>) {
+    let measured = states.into_iter().chain([start.clone()]).map(|points| {
+        let measures = measure(&points).ok();
+        (points, measures)
+    });
+    let miss = |measures: &Option<Measures>| measures.as_ref().map_or(f64::INFINITY, |measures| params.worst_miss(measures));
+    measured.min_by(|(_, a), (_, b)| miss(a).total_cmp(&miss(b))).unwrap_or_else(|| (start.clone(), None))
 }

@@ -9,7 +9,7 @@
 //! R_f = sqrt(kappa / (sqrt(3) beta)) hexagonal spacings and R_c = beta R_f: with kappa = 1 the hexagonal lattice's own where beta is as small as can
 //! be. They are reached by Push-Pull's moves, which also keep the Voronoi cells' areas alike.
 //!
-//! Cost: O(n) in all; 17 visits a point to 0.75, 40 to 0.70, 160 to 0.68. It does not promise that any beta can be reached: on a torus 0.67 is known to be.
+//! Cost: O(n) in all; 17 visits a point to 0.75, 40 to 0.70, 100 to 0.68, some 300 to 0.67. It does not promise that any beta can be reached: on a torus 0.67 is known to be.
 
 use serde::Serialize;
 
@@ -24,7 +24,7 @@ use crate::space::Space;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct WellSpacedParams {
     /// The coverage radius over the smallest distance shall be this at most; 0.578 or more, where 0.577 is the hexagonal lattice's. Down to 0.67 is
-    /// known to be reached on a torus, to 0.72 in a rectangle. Less makes points more regular: psi6 is 0.47 at 0.75, 0.54 at 0.70 and 0.60 at 0.67.
+    /// known to be reached on a torus, to 0.72 in a rectangle. Less makes points more regular: psi6 is 0.47 at 0.75, 0.54 at 0.70 and 0.61 at 0.67.
     pub beta: f64,
     /// Stops after this many passes in any case; `None` for a limit that grows with the number of points, 2000 at least.
     pub max_passes: Option<usize>,
@@ -40,13 +40,13 @@ impl Default for WellSpacedParams {
 
 /// The tolerance of areas that takes long density waves out, and forces nothing else.
 const CAPACITY_TOLERANCE: f64 = 0.1;
-/// Below this ratio moves are exaggerated a little,
+/// Below this ratio moves are exaggerated.
 const TOUGH: f64 = 0.72;
-/// by this factor.
+/// The part of each move that is made below [`TOUGH`].
 const RELAXATION: f64 = 1.2;
 /// Below this ratio shorter distances and radii are easier than those of kappa = 1.
 const TOUGHEST: f64 = 0.69;
-/// The kappa there.
+/// The kappa below [`TOUGHEST`].
 const KAPPA: f64 = 0.985;
 /// The coverage radius of the hexagonal lattice, rounded up.
 const LEAST_RADIUS: f64 = 0.5774;
@@ -101,7 +101,7 @@ impl WellSpacedParams {
 }
 
 /// The angles in degrees between which all angles of a Delaunay triangulation lie whose coverage radius is `beta` times its smallest distance; `None`
-/// from 1 on, where nothing is sure. On a bounded domain they hold for triangles with their circumcentre in it.
+/// from 1 on, where they say little. On a bounded domain they hold for triangles with their circumcentre in it.
 pub fn angle_bounds_deg(beta: f64) -> Option<[f64; 2]> {
     let least = (0.5 / beta).asin().to_degrees();
     (beta < 1.0).then_some([least, 180.0 - 2.0 * least])

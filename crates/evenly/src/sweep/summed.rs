@@ -38,6 +38,7 @@ pub(super) fn summed_pass(mesh: &mut LiveMesh, rule: &impl Rule) -> Work {
     }
     let mut buffer = StarBuffer::default();
     for (point, by) in (0..).zip(sums).filter(|&(_, by)| by != DVec2::ZERO) {
+        // Nor here: as far as it gets.
         let _ = mesh.relocate(point, by.clamp_length_max(mesh.spacing()), Territory::EVERYTHING, &mut buffer);
     }
     total.n_flips += buffer.n_flips;
