@@ -1,4 +1,4 @@
-//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull]`, quick without the largest
+//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts]`, quick without the largest
 //! runs.
 //!
 //! Speed is a ratio to one run of `delaunator` on the same points in the same process, the best of a few runs each.
@@ -8,8 +8,9 @@
 use std::time::{Duration, Instant};
 
 use evenly::{
-    Error, Measures, Mode, Outcome, Phase, PointSet, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext,
-    Space, Torus, WellSpacedParams, measure, procrustes, push_pull, warp, warp_isotropic, well_spaced, white,
+    CANDIDATES_A_POINT, DartParams, Error, Measures, Mode, Outcome, Phase, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams,
+    PushPullPreset, Rectangle, Report, RunContext, Space, Torus, WellSpacedParams, dart, eliminate, measure, poisson_disk, procrustes,
+    push_pull, warp, warp_isotropic, well_spaced, white,
 };
 use peak_alloc::PeakAlloc;
 
@@ -21,13 +22,17 @@ const SEEDS: std::ops::Range<u64> = 0..5;
 fn main() {
     let args: Vec<String> = std::env::args().collect();
     let is_wanted = |name: &str| args.iter().any(|arg| arg == name);
-    let (is_quick, is_all) = (is_wanted("quick"), !is_wanted("procrustes") && !is_wanted("push-pull"));
+    let is_quick = is_wanted("quick");
+    let is_all = !["procrustes", "push-pull", "starts"].into_iter().any(is_wanted);
     println!("| run | must reach | measured |\n|---|---|---|");
     if is_all || is_wanted("procrustes") {
         of_procrustes(is_quick);
     }
     if is_all || is_wanted("push-pull") {
         of_push_pull(is_quick);
+    }
+    if is_all || is_wanted("starts") {
+        of_starts(is_quick);
     }
 }
 
@@ -81,6 +86,37 @@ fn of_push_pull(is_quick: bool) {
     if !is_quick {
         well_spacing(100_000, 2, 0.70, "reached, bond order <= .56, 0 obtuse triangles");
     }
+}
+
+fn of_starts(is_quick: bool) {
+    let sizes = if is_quick { &[(10_000, "-"), (100_000, "<= 5")][..] } else { &[(10_000, "-"), (100_000, "<= 5"), (1_000_000, "<= 4")] };
+    for &(n, must) in sizes {
+        let params = PoissonDiskParams { seed: 1, ..PoissonDiskParams::for_about(&torus(), n) };
+        let points = poisson_disk(torus(), &params).unwrap();
+        let unit = delaunator(&points).as_secs_f64();
+        let ratio = best(3, || poisson_disk(torus(), &params).unwrap()).as_secs_f64() / unit;
+        let m = measure(&points).unwrap();
+        let relative = |length: f64| length * m.hex_spacing / params.spacing;
+        println!(
+            "| Poisson-disk, n = {n} | r_f >= R, r_c <= R, {must} delaunator runs, one thread | {} points, r_f = (1 + {:.0e}) R, r_c = (1 - {:.0e}) R, \
+             {ratio:.2} |",
+            points.n_points(),
+            relative(m.min_distance) - 1.0,
+            1.0 - relative(m.coverage_radius),
+        );
+    }
+    let n = 100_000;
+    let candidates = white(torus(), CANDIDATES_A_POINT * n, 1).unwrap();
+    let unit = delaunator(&white(torus(), n, 1).unwrap()).as_secs_f64();
+    let ratio = best(1, || eliminate(&candidates, n).unwrap()).as_secs_f64() / unit;
+    let thinned = measure(&eliminate(&candidates, n).unwrap()).unwrap();
+    println!("| sample elimination in progressive order, n = {n} | - | {ratio:.0}, min distance {:.3} |", thinned.min_distance);
+    let darts = DartParams { n_points: Some(n), ..DartParams::default() };
+    let ratio = best(1, || dart(torus(), &darts).unwrap()).as_secs_f64() / unit;
+    println!(
+        "| dart throwing, n = {n} | - | {ratio:.0}, min distance {:.3} |",
+        measure(&dart(torus(), &darts).unwrap()).unwrap().min_distance
+    );
 }
 
 fn torus() -> Space {

@@ -311,7 +311,17 @@ fn bad_input_gets_one_line_and_no_file() {
         ("generate -n 1e12 -o o.txt", "'1e12'"),
         ("generate -n 2.5 -o o.txt", "'2.5'"),
         ("generate -n -3 -o o.txt", "'-3'"),
-        ("generate -o o.txt", "--n-points"),
+        ("generate -o o.txt", "--n-points is missing"),
+        ("generate -o o.txt --method dart", "--spacing or --n-points is missing"),
+        ("generate -n 9 --spacing 0.1 -o o.txt --method poisson-disk", "exclude each other"),
+        ("generate --spacing 2 -o o.txt --method poisson-disk", "--spacing is 2; it must be at most the torus' shorter side"),
+        ("generate --spacing -1 -o o.txt --method poisson-disk", "--spacing is -1"),
+        ("generate --spacing NaN -o o.txt --method dart", "--spacing is NaN"),
+        ("generate --spacing 1e-9 -o o.txt --method poisson-disk", "are too many"),
+        ("generate --spacing 0.1 --coverage 0.05 -o o.txt --method poisson-disk", "--coverage is 0.05; it must be the spacing or more"),
+        ("generate --spacing 0.1 --tries 0 -o o.txt --method dart", "--tries is 0"),
+        ("generate -n 9 --tries 9 -o o.txt --method eliminate", "--tries is for --method dart"),
+        ("generate -n 9 --spacing 0.1 -o o.txt", "--spacing is for --method poisson-disk or dart"),
         ("generate -n 10", "--output"),
         ("generate -n 10 -o o.txt --size 0,1", "0 x 1"),
         ("generate -n 10 -o o.txt --size NaN,1", "NaN x 1"),
@@ -360,6 +370,24 @@ fn bad_input_gets_one_line_and_no_file() {
         let said = shell.refused(line);
         assert!(said.contains(expected), "{line}: {said}");
     }
+}
+
+#[test]
+fn a_maximal_set_has_as_many_points_as_it_has_and_says_so() {
+    let shell = Shell::new();
+    let run = shell.ok("generate -n 1000 --method poisson-disk -o a.txt --json");
+    let record: Value = serde_json::from_str(&run).unwrap();
+    let n = record["n_points"].as_u64().unwrap();
+    assert!((950..1050).contains(&n), "{n}");
+    assert!(n == 1000 || record["notes"][0].as_str().unwrap().contains(&format!("{n} for 1000")), "{record}");
+    shell.ok("generate --spacing 0.05 --coverage 0.1 --method poisson-disk --space rect --size 3,1 -o b.txt");
+    for method in ["dart", "eliminate"] {
+        shell.ok(&format!("generate -n 777 --method {method} -o {method}.txt"));
+        assert_eq!(shell.read(&format!("{method}.txt")).lines().filter(|line| !line.starts_with('#')).count(), 777);
+    }
+    // As a start, the number is exact again.
+    shell.ok("generate -n 777 --method well-spaced --start poisson-disk -o c.txt");
+    assert_eq!(shell.read("c.txt").lines().filter(|line| !line.starts_with('#')).count(), 777);
 }
 
 #[test]

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Command as Clap, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use evenly::{Error, MAX_POINTS, Rectangle, Space, Torus};
 use evenly_io::{Draw, Format};
 
-use crate::optimizer_args::OptimizerArgs;
+use crate::method::{Method, parser, with_methods};
+use crate::method_args::{OptimizerArgs, StartArgs};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -46,15 +47,15 @@ pub enum Command {
 #[derive(Args)]
 #[command(after_help = "Example:\n  evenly generate -n 10000 --method procrustes -o points.svg --draw valence,points")]
 pub struct Generate {
-    /// How many points, exactly: 1 to 40 million
+    /// How many points, exactly: 1 to 40 million; poisson-disk takes it as a guess
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
-    pub n_points: usize,
+    pub n_points: Option<usize>,
     /// How they are made: by an optimiser, or as one of its starts
-    #[arg(long, value_enum, default_value = "procrustes")]
-    pub method: GenerateMethod,
+    #[arg(long, default_value = "procrustes", value_parser = parser(|method| method != Method::Warp))]
+    pub method: Method,
     /// What an optimiser starts from [default: white]
-    #[arg(long, value_enum)]
-    pub start: Option<Start>,
+    #[arg(long, value_parser = parser(Method::is_start), hide_possible_values = true)]
+    pub start: Option<Method>,
     /// The same seed gives the same points
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -62,6 +63,8 @@ pub struct Generate {
     pub space: SpaceArgs,
     #[command(flatten)]
     pub optimizer: OptimizerArgs,
+    #[command(flatten)]
+    pub starts: StartArgs,
     #[command(flatten)]
     pub run: RunArgs,
 }
@@ -72,8 +75,8 @@ pub struct Optimize {
     /// Points as .txt, .csv or .npy; - is stdin
     pub input: PathBuf,
     /// How they are improved
-    #[arg(long, value_enum, default_value = "procrustes")]
-    pub method: OptimizeMethod,
+    #[arg(long, default_value = "procrustes", value_parser = parser(|method| method.is_optimizer() || method == Method::Warp))]
+    pub method: Method,
     /// The same seed gives the same points; Procrustes analysis uses none
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -155,44 +158,6 @@ pub struct RunArgs {
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum GenerateMethod {
-    /// Procrustes analysis (Papazov and Hege)
-    Procrustes,
-    /// Push-pull optimization (Ahmed, Guo, Yan et al.)
-    PushPull,
-    /// Low beta, the ratio of the largest gap to the smallest distance (Ebeida et al.)
-    WellSpaced,
-    /// Independent uniform points
-    White,
-    /// One point in each cell of a grid
-    Jittered,
-    /// The hexagonal lattice
-    Hexagonal,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum OptimizeMethod {
-    /// Procrustes analysis (Papazov and Hege)
-    Procrustes,
-    /// Push-pull optimization (Ahmed, Guo, Yan et al.)
-    PushPull,
-    /// Low beta, the ratio of the largest gap to the smallest distance (Ebeida et al.)
-    WellSpaced,
-    /// Even out long density waves, and nothing else
-    Warp,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum Start {
-    /// Independent uniform points
-    White,
-    /// One point in each cell of a grid, whose order outlives an optimiser as peaks in the spectrum
-    Jittered,
-    /// The hexagonal lattice
-    Hexagonal,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub enum SpaceKind {
     /// Opposite sides are one
     Torus,
@@ -211,6 +176,11 @@ pub enum DrawArg {
     Voronoi,
     /// Voronoi cells coloured by their number of neighbours
     Valence,
+}
+
+/// The whole command, with what the table of methods adds to the help.
+pub fn command() -> Clap {
+    Cli::command().mut_subcommand("generate", with_methods).mut_subcommand("optimize", with_methods)
 }
 
 impl From<DrawArg> for Draw {

@@ -6,15 +6,16 @@
 mod args;
 mod commands;
 mod input;
+mod method;
+mod method_args;
 mod optimizer;
-mod optimizer_args;
 mod record;
 mod session;
 mod talk;
 
 use std::process::ExitCode;
 
-use clap::Parser as _;
+use clap::FromArgMatches as _;
 use clap::error::ErrorKind;
 
 use args::{Cli, Command};
@@ -24,13 +25,15 @@ use talk::say;
 const BAD_INPUT: u8 = 2;
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
-        Ok(cli) => cli,
+    let parsed = args::command().try_get_matches().and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)));
+    let (cli, matches) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => return usage(&error),
     };
+    let flags = matches.subcommand().map(|(_, flags)| flags).unwrap_or(&matches);
     let done = match &cli.command {
-        Command::Generate(args) => commands::generate::run(args),
-        Command::Optimize(args) => commands::optimize::run(args),
+        Command::Generate(args) => commands::generate::run(args, flags),
+        Command::Optimize(args) => commands::optimize::run(args, flags),
         Command::Analyze(args) => commands::analyze::run(args),
         Command::Completions { shell } => commands::shell::completions(*shell),
         Command::Man => commands::shell::man(),

@@ -5,8 +5,6 @@ use std::collections::BTreeMap;
 use evenly::{Measures, Report, Space, UnmetTarget};
 use serde::Serialize;
 
-use crate::optimizer::Optimizer;
-
 #[derive(Serialize)]
 pub struct Record {
     pub version: &'static str,
@@ -16,7 +14,7 @@ pub struct Record {
     pub space: Space,
     pub n_points: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub parameters: Option<Optimizer>,
+    pub parameters: Option<serde_json::Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub run: Option<Report>,
     /// Wall time of each phase.

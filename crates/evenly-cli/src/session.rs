@@ -10,6 +10,7 @@ use evenly_io::{Draw, Target, write_points};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::RunArgs;
+use crate::method::Method;
 use crate::optimizer::Optimizer;
 use crate::record::{self, Record};
 use crate::talk::say;
@@ -31,7 +32,7 @@ pub struct Session<'a> {
     cancel: CancelToken,
     seconds: BTreeMap<&'static str, f64>,
     notes: Vec<String>,
-    optimizer: Option<Optimizer>,
+    optimizer: Option<Box<dyn Optimizer>>,
 }
 
 /// Threads for rayon: as many as asked for, or as there are cores.
@@ -93,13 +94,18 @@ impl<'a> Session<'a> {
     }
 
     /// Optimises points, and finishes.
-    pub fn optimize(mut self, mut points: PointSet, optimizer: Optimizer, is_warped: bool) -> anyhow::Result<ExitCode> {
-        self.optimizer = Some(optimizer);
+    pub fn optimize(
+        mut self,
+        mut points: PointSet,
+        method: Method,
+        optimizer: Box<dyn Optimizer>,
+        is_warped: bool,
+    ) -> anyhow::Result<ExitCode> {
         self.seed = self.seed.or(optimizer.seed());
-        let is_warped = is_warped && points.n_points() >= 3;
-        let start = (is_warped && optimizer.has_targets()).then(|| points.clone());
-        if is_warped {
-            self.time("warp", || optimizer.warp(&mut points));
+        let warp = optimizer.warp().filter(|_| is_warped && points.n_points() >= 3);
+        let start = (warp.is_some() && optimizer.has_targets()).then(|| points.clone());
+        if let Some(warp) = warp {
+            self.time("warp", || warp(&mut points));
         }
         if let Some(advice) = optimizer.advice(points.space()) {
             self.note(advice);
@@ -130,16 +136,17 @@ impl<'a> Session<'a> {
         }
         if report.outcome != Outcome::Converged
             && let Some(start) = start
-            && self.is_nearer(&start, &points, optimizer)
+            && self.is_nearer(&start, &points, &*optimizer)
         {
             self.note("the points that came in miss the targets by less, and are written".into());
             points = start;
         }
-        self.finish(points, optimizer.name(), Some(report))
+        self.optimizer = Some(optimizer);
+        self.finish(points, method, Some(report))
     }
 
     /// Whether the first set misses the targets by less than the second.
-    fn is_nearer(&mut self, first: &PointSet, second: &PointSet, optimizer: Optimizer) -> bool {
+    fn is_nearer(&mut self, first: &PointSet, second: &PointSet, optimizer: &dyn Optimizer) -> bool {
         let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| optimizer.worst_miss(&measures));
         self.time("measure", || miss(first) < miss(second))
     }
@@ -165,14 +172,12 @@ impl<'a> Session<'a> {
     }
 
     /// Measures the points, writes them and the record, and says how it went.
-    pub fn finish(mut self, points: PointSet, method: &str, run: Option<Report>) -> anyhow::Result<ExitCode> {
-        let has_targets = self.optimizer.is_some_and(|optimizer| optimizer.has_targets());
+    pub fn finish(mut self, points: PointSet, method: Method, run: Option<Report>) -> anyhow::Result<ExitCode> {
+        let has_targets = self.optimizer.as_ref().is_some_and(|optimizer| optimizer.has_targets());
         let is_wanted = !self.args.quiet || self.args.json || self.report.is_some() || has_targets;
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
-        let unmet = match (&self.optimizer, &measures) {
-            (Some(optimizer), Some(measures)) => optimizer.unmet(measures),
-            _ => None,
-        };
+        let with_targets = self.optimizer.as_ref().filter(|_| has_targets);
+        let unmet = with_targets.zip(measures.as_ref()).map(|(optimizer, measures)| optimizer.unmet(measures));
         let recipe = record::recipe(self.seed);
         let start = Instant::now();
         self.pool.install(|| write_points(&points, &self.draw, &recipe, &self.output))?;
@@ -189,11 +194,11 @@ impl<'a> Session<'a> {
         let record = Record {
             version: record::VERSION,
             command: record::command(),
-            method: method.to_owned(),
+            method: method.name(),
             seed: self.seed,
             space: *points.space(),
             n_points: points.n_points(),
-            parameters: self.optimizer,
+            parameters: self.optimizer.map(|optimizer| optimizer.parameters()),
             run,
             seconds: self.seconds,
             angle_bounds_deg: measures.as_ref().and_then(|m| angle_bounds_deg(m.beta)),

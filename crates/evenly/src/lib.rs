@@ -32,7 +32,10 @@ pub use optimize::{
     Mode, ProcrustesParams, PushPullParams, PushPullPreset, UnmetTarget, WellSpacedParams, angle_bounds_deg, procrustes, push_pull,
     well_spaced,
 };
-pub use points::{MAX_POINTS, PointSet, hexagonal, jittered, warp, warp_isotropic, white};
+pub use points::{
+    CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,
+    poisson_disk_of, warp, warp_isotropic, white,
+};
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Space, Torus};
 pub use sweep::Schedule;

@@ -2,33 +2,27 @@
 
 use std::process::ExitCode;
 
+use clap::ArgMatches;
 use evenly::warp;
 
-use crate::args::{Optimize, OptimizeMethod};
+use crate::args::Optimize;
 use crate::input;
 use crate::session::Session;
 
-pub fn run(args: &Optimize) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
+    args.method.refuse_others_flags(flags)?;
     let space = args.space.space()?;
-    let optimizer = match args.method {
-        OptimizeMethod::Procrustes => Some(args.optimizer.procrustes()?),
-        OptimizeMethod::PushPull => Some(args.optimizer.push_pull(args.seed)?),
-        OptimizeMethod::WellSpaced => Some(args.optimizer.well_spaced(args.seed)?),
-        OptimizeMethod::Warp => {
-            args.optimizer.none()?;
-            None
-        }
-    };
+    let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, None)?;
     let (mut points, note) = session.time("read", || input::read(&args.input, space))?;
     if let Some(note) = note {
         session.note(note);
     }
     match optimizer {
-        Some(optimizer) => session.optimize(points, optimizer, !args.optimizer.no_warp),
+        Some(optimizer) => session.optimize(points, args.method, optimizer, !args.optimizer.no_warp),
         None => {
             session.time("warp", || warp(&mut points));
-            session.finish(points, "warp", None)
+            session.finish(points, args.method, None)
         }
     }
 }

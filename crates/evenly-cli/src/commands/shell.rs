@@ -3,19 +3,17 @@
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use clap::CommandFactory as _;
-
-use crate::args::Cli;
+use crate::args::command;
 
 pub fn completions(shell: clap_complete::Shell) -> anyhow::Result<ExitCode> {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Cli::command(), "evenly", &mut script);
+    clap_complete::generate(shell, &mut command(), "evenly", &mut script);
     print(&script)
 }
 
 /// The page of the command, then those of its verbs.
 pub fn man() -> anyhow::Result<ExitCode> {
-    let mut command = Cli::command();
+    let mut command = command();
     command.build();
     let mut page = Vec::new();
     clap_mangen::Man::new(command.clone()).render(&mut page)?;

@@ -1,18 +1,25 @@
 //! [`PointSet`], and the starting points that every method can begin from.
 
+mod bins;
+mod dart;
+mod eliminate;
 mod hexagonal;
 mod jittered;
 mod order;
 mod point_set;
+mod poisson_disk;
 mod random;
 mod separate;
 mod warp;
 mod white;
 
+pub use dart::{DartParams, dart};
+pub use eliminate::{CANDIDATES_A_POINT, eliminate};
 pub use hexagonal::hexagonal;
 pub use jittered::jittered;
 pub(crate) use order::hilbert_order;
 pub use point_set::{MAX_POINTS, PointSet};
+pub use poisson_disk::{PoissonDiskParams, poisson_disk, poisson_disk_of};
 pub(crate) use random::Random;
 pub(crate) use separate::{make_distinct, separate};
 pub use warp::{warp, warp_isotropic};

@@ -33,7 +33,7 @@ pub(crate) struct Domain {
 
 /// Rounds to the grid.
 #[inline]
-fn snap(p: DVec2) -> DVec2 {
+pub(crate) fn snap(p: DVec2) -> DVec2 {
     (p + SNAP) - SNAP
 }
 

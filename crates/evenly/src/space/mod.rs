@@ -2,7 +2,7 @@
 
 mod domain;
 
-pub(crate) use domain::{Domain, GRID};
+pub(crate) use domain::{Domain, GRID, snap};
 
 use serde::Serialize;
 

@@ -1,0 +1,124 @@
+//! The methods, and which flags each of them takes.
+
+use anyhow::bail;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Command, ValueEnum};
+
+use Method::{Dart, Eliminate, Hexagonal, Jittered, PoissonDisk, Procrustes, PushPull, WellSpaced, White};
+
+/// How points are made, or made better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Method {
+    /// Procrustes analysis (Papazov and Hege)
+    Procrustes,
+    /// Push-pull optimization (Ahmed, Guo, Yan et al.)
+    PushPull,
+    /// Low beta, the ratio of the largest gap to the smallest distance (Ebeida et al.)
+    WellSpaced,
+    /// Maximal Poisson-disk sampling (Ebeida et al.)
+    PoissonDisk,
+    /// Dart throwing (Cook)
+    Dart,
+    /// Weighted sample elimination (Yuksel), in progressive order
+    Eliminate,
+    /// Independent uniform points
+    White,
+    /// One point in each cell of a grid, whose order outlives an optimiser as peaks in the spectrum
+    Jittered,
+    /// The hexagonal lattice
+    Hexagonal,
+    /// Even out long density waves, and nothing else
+    Warp,
+}
+
+const OPTIMIZERS: &[Method] = &[Procrustes, PushPull, WellSpaced];
+
+/// The flags that not every method takes, by their ids.
+const FLAGS: &[(&str, &[Method])] = &[
+    ("start", OPTIMIZERS),
+    ("iterations", OPTIMIZERS),
+    ("no_warp", OPTIMIZERS),
+    ("mode", &[Procrustes]),
+    ("side", &[Procrustes]),
+    ("tolerance", &[Procrustes]),
+    ("preset", &[PushPull]),
+    ("min_distance", &[PushPull]),
+    ("coverage_radius", &[PushPull]),
+    ("capacity_tolerance", &[PushPull]),
+    ("relaxation", &[PushPull]),
+    ("schedule", &[PushPull]),
+    ("beta", &[WellSpaced]),
+    ("spacing", &[PoissonDisk, Dart]),
+    ("coverage", &[PoissonDisk]),
+    ("tries", &[Dart]),
+];
+
+impl Method {
+    pub fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+
+    /// Whether it improves points.
+    pub fn is_optimizer(self) -> bool {
+        OPTIMIZERS.contains(&self)
+    }
+
+    /// Whether it makes points that an optimiser can begin with.
+    pub fn is_start(self) -> bool {
+        [PoissonDisk, Dart, Eliminate, White, Jittered, Hexagonal].contains(&self)
+    }
+
+    /// Refuses flags of other methods.
+    pub fn refuse_others_flags(self, matches: &ArgMatches) -> anyhow::Result<()> {
+        let is_given = |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
+        match FLAGS.iter().find(|(id, methods)| is_given(id) && !methods.contains(&self)) {
+            Some((id, methods)) => bail!("--{} is for --method {}", id.replace('_', "-"), names(methods)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Reads those methods that are offered.
+pub fn parser(is_offered: fn(Method) -> bool) -> impl TypedValueParser<Value = Method> {
+    let offered = Method::value_variants().iter().filter(move |&&method| is_offered(method));
+    PossibleValuesParser::new(offered.filter_map(Method::to_possible_value)).try_map(|name| Method::from_str(&name, false))
+}
+
+/// The command with each flag's methods in its help.
+pub fn with_methods(command: Command) -> Command {
+    command.mut_args(|arg| {
+        let own = FLAGS.iter().find(|(id, methods)| arg.get_id() == id && *methods != OPTIMIZERS);
+        let Some((_, methods)) = own else { return arg };
+        let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+        arg.help(format!("{}: {help}", names(methods)))
+    })
+}
+
+fn names(methods: &[Method]) -> String {
+    let names: Vec<String> = methods.iter().map(|method| method.name()).collect();
+    match &names[..] {
+        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::command;
+
+    #[test]
+    fn every_flag_of_the_table_is_one_and_every_method_is_offered() {
+        let command = command();
+        let verb = |name: &str| command.get_subcommands().find(|verb| verb.get_name() == name).cloned().unwrap_or_default();
+        for (id, methods) in FLAGS {
+            let has = |name: &str| verb(name).get_arguments().any(|arg| arg.get_id() == id);
+            assert!(has("generate"), "{id}");
+            assert!(has("optimize") || *id == "start" || !methods.iter().any(|method| method.is_optimizer()), "{id}");
+        }
+        for &method in Method::value_variants() {
+            assert!(method.is_optimizer() != (method.is_start() || method == Method::Warp));
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! What a method can be told, and the parameters that come of it. Which method takes which flag stands in `method.rs`.
+
+use anyhow::{anyhow, bail};
+use clap::{Args, ValueEnum};
+use evenly::{
+    CANDIDATES_A_POINT, DartParams, Error, Mode, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams, PushPullPreset, Schedule,
+    Space, WellSpacedParams, dart, eliminate, hexagonal, jittered, poisson_disk, white,
+};
+
+use crate::method::Method;
+use crate::optimizer::Optimizer;
+
+/// What an optimiser can be told.
+#[derive(Args)]
+pub struct OptimizerArgs {
+    /// Keep the start's own long density waves; without it procrustes, push-pull and well-spaced even out white noise, and any input, first
+    #[arg(long)]
+    pub no_warp: bool,
+    /// Stop after so many iterations or passes in any case [default: 500; push-pull and well-spaced: 2000, more for more than 1000 points]
+    #[arg(short, long, value_name = "I", allow_negative_numbers = true)]
+    iterations: Option<usize>,
+    /// Targets, with the tolerance and relaxation that they need; the flags below change them one by one [default: balanced]
+    #[arg(long, value_enum, help_heading = "Targets")]
+    preset: Option<PresetArg>,
+    /// No two points nearer than this many hexagonal spacings, up to 1; or off
+    #[arg(long, value_name = "R", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Targets")]
+    min_distance: Option<Target>,
+    /// No place farther from a point than this many hexagonal spacings, 0.577 at least; or off
+    #[arg(long, value_name = "R", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Targets")]
+    coverage_radius: Option<Target>,
+    /// No Voronoi cell's area farther from the mean than this part of it; or off. Where a target is given without a preset, lengths that are not
+    /// given are off, and this is 0.0386
+    #[arg(long, value_name = "T", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Targets")]
+    capacity_tolerance: Option<Target>,
+    /// Coverage radius over smallest distance: below 0.707 no triangle is obtuse; on a torus 0.67 is reached, in a rectangle 0.72 [default: 0.75]
+    #[arg(long, value_name = "B", allow_negative_numbers = true, help_heading = "Targets")]
+    beta: Option<f64>,
+    /// paper: plain steps, the energy never rises (but where a rectangle is triangulated anew); fast: momentum [default: fast]
+    #[arg(long, value_enum, hide_possible_values = true, help_heading = "Steps")]
+    mode: Option<ModeArg>,
+    /// Side of the model triangle in hexagonal spacings, good within 1 to 1.625 [default: 1.5]
+    #[arg(long, value_name = "D", allow_negative_numbers = true, hide_short_help = true, help_heading = "Steps")]
+    side: Option<f64>,
+    /// Stop when an iteration (fast: two in a row) gains less than this share of the domain's area [default: 0.00002]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, hide_short_help = true, help_heading = "Steps")]
+    tolerance: Option<f64>,
+    /// The part of each move that is made; 1.2 reaches tougher targets, in turn [default: the preset's, 1; summed: 0.5]
+    #[arg(long, value_name = "W", allow_negative_numbers = true, hide_short_help = true, help_heading = "Steps")]
+    relaxation: Option<f64>,
+    /// in-turn: points move at each visit; summed: at the end of a pass, the paper's parallel variant [default: in-turn]
+    #[arg(long, value_enum, hide_possible_values = true, hide_short_help = true, help_heading = "Steps")]
+    schedule: Option<ScheduleArg>,
+}
+
+/// What a method that makes points can be told.
+#[derive(Args)]
+#[command(next_help_heading = "Starts")]
+pub struct StartArgs {
+    /// No two points nearer than this, in the domain's units; how many there will be is chance
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    pub spacing: Option<f64>,
+    /// No place farther from all points than this, in the domain's units: more than the spacing makes points fewer, and more random
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    coverage: Option<f64>,
+    /// Misses in a row after which a set is full, or without --spacing the spacing shrinks [default: 1000]
+    #[arg(long, value_name = "K", allow_negative_numbers = true, hide_short_help = true)]
+    tries: Option<usize>,
+}
+
+/// A number, or none.
+#[derive(Clone, Copy)]
+pub struct Target(Option<f64>);
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum ModeArg {
+    /// Plain steps
+    Paper,
+    /// Momentum
+    Fast,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum ScheduleArg {
+    /// Points move at each visit
+    InTurn,
+    /// Points move at the end of a pass
+    Summed,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum PresetArg {
+    /// Distance 0.75, coverage 0.75, tolerance 0.1
+    Fast,
+    /// 0.85, 0.67, 0.0386
+    Balanced,
+    /// 0.90, 0.65, 0.0386: the triangles' angles are 43.8 to 92.5 degrees
+    Tough,
+    /// 0.80, 0.63, 0.0386: row 1 of the paper's Table 1; on a torus
+    Paper1,
+    /// 0.90, 0.65, 0.0386: row 2
+    Paper2,
+    /// 0.92, 0.62, 0.1, relaxation 1.2: row 3, no triangle is obtuse; on a torus
+    Paper3,
+}
+
+impl OptimizerArgs {
+    /// The optimiser of a method, with what it was told; `None` for a method that is none.
+    pub fn optimizer(&self, method: Method, seed: u64) -> anyhow::Result<Option<Box<dyn Optimizer>>> {
+        Ok(Some(match method {
+            Method::Procrustes => Box::new(self.procrustes().map_err(by_flag)?),
+            Method::PushPull => Box::new(self.push_pull(seed).map_err(by_flag)?),
+            Method::WellSpaced => Box::new(self.well_spaced(seed).map_err(by_flag)?),
+            _ => return Ok(None),
+        }))
+    }
+
+    fn procrustes(&self) -> Result<ProcrustesParams, Error> {
+        let mut params = ProcrustesParams::default();
+        set(&mut params.mode, self.mode.map(Into::into));
+        set(&mut params.side, self.side);
+        set(&mut params.tolerance, self.tolerance);
+        set(&mut params.max_iterations, self.iterations);
+        params.validate()?;
+        Ok(params)
+    }
+
+    fn push_pull(&self, seed: u64) -> Result<PushPullParams, Error> {
+        let &Self { preset, min_distance, coverage_radius, capacity_tolerance, .. } = self;
+        let mut params = PushPullParams::preset(preset.map(Into::into).unwrap_or_default());
+        let given = [min_distance, coverage_radius, capacity_tolerance].into_iter().flatten();
+        let is_picked = preset.is_none() && { given }.any(|target| target.0.is_some());
+        if is_picked {
+            (params.min_distance, params.coverage_radius) = (None, None);
+        }
+        set(&mut params.min_distance, min_distance.map(|target| target.0));
+        set(&mut params.coverage_radius, coverage_radius.map(|target| target.0));
+        set(&mut params.capacity_tolerance, capacity_tolerance.map(|target| target.0));
+        if self.schedule == Some(ScheduleArg::Summed) {
+            (params.schedule, params.relaxation) = (Schedule::Summed, 0.5);
+        }
+        set(&mut params.relaxation, self.relaxation);
+        params.max_passes = self.iterations;
+        params.seed = seed;
+        params.validate()?;
+        Ok(params)
+    }
+
+    fn well_spaced(&self, seed: u64) -> Result<WellSpacedParams, Error> {
+        let mut params = WellSpacedParams { max_passes: self.iterations, seed, ..WellSpacedParams::default() };
+        set(&mut params.beta, self.beta);
+        params.validate()?;
+        Ok(params)
+    }
+}
+
+impl StartArgs {
+    /// Makes points by a method that is no optimiser, and says what the user should know.
+    pub fn make(&self, method: Method, space: Space, n_points: Option<usize>, seed: u64) -> anyhow::Result<(PointSet, Option<String>)> {
+        if self.spacing.is_some() && n_points.is_some() {
+            bail!("--spacing and --n-points exclude each other: how many points fit is chance");
+        }
+        if self.spacing.is_none() && n_points.is_none() && [Method::PoissonDisk, Method::Dart].contains(&method) {
+            bail!("--spacing or --n-points is missing: how near to each other, or how many?");
+        }
+        match (method, n_points) {
+            (Method::PoissonDisk, _) => self.poisson_disk(space, n_points, seed),
+            (Method::Dart, _) => {
+                let mut params = DartParams { n_points, spacing: self.spacing, seed, ..DartParams::default() };
+                set(&mut params.tries, self.tries);
+                Ok((dart(space, &params).map_err(by_flag)?, None))
+            }
+            (_, Some(n)) => Ok((start(method, space, n, seed)?, None)),
+            (_, None) => bail!("--n-points is missing: how many?"),
+        }
+    }
+
+    fn poisson_disk(&self, space: Space, n_points: Option<usize>, seed: u64) -> anyhow::Result<(PointSet, Option<String>)> {
+        let estimated = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, n_points.unwrap_or(1)) };
+        let params = self.spacing.map_or(estimated, |spacing| PoissonDiskParams { spacing, ..estimated });
+        let points = poisson_disk(space, &PoissonDiskParams { coverage: self.coverage, ..params }).map_err(by_flag)?;
+        let note = n_points.filter(|&n| n != points.n_points()).map(|n| {
+            format!("a maximal set's number of points is chance: {} for {n}, with a spacing of {:.6e}", points.n_points(), params.spacing)
+        });
+        Ok((points, note))
+    }
+}
+
+/// Exactly so many points for an optimiser to begin with.
+pub fn start(method: Method, space: Space, n_points: usize, seed: u64) -> Result<PointSet, Error> {
+    match method {
+        Method::PoissonDisk => evenly::poisson_disk_of(space, n_points, seed),
+        Method::Dart => dart(space, &DartParams { n_points: Some(n_points), seed, ..DartParams::default() }),
+        Method::Eliminate => eliminate(&white(space, n_points.saturating_mul(CANDIDATES_A_POINT), seed)?, n_points),
+        Method::Jittered => jittered(space, n_points, seed),
+        Method::Hexagonal => hexagonal(space, n_points),
+        _ => white(space, n_points, seed),
+    }
+}
+
+/// The same error, with the name that the user knows.
+fn by_flag(error: Error) -> anyhow::Error {
+    match error {
+        Error::InvalidParameter { name, value, expected } => {
+            let flag = if name.starts_with("max_") { "iterations".to_owned() } else { name.replace('_', "-") };
+            anyhow!("--{flag} is {value}; it must be {expected}")
+        }
+        other => other.into(),
+    }
+}
+
+fn set<T>(field: &mut T, value: Option<T>) {
+    if let Some(value) = value {
+        *field = value;
+    }
+}
+
+impl From<ModeArg> for Mode {
+    fn from(mode: ModeArg) -> Self {
+        match mode {
+            ModeArg::Paper => Self::Paper,
+            ModeArg::Fast => Self::Fast,
+        }
+    }
+}
+
+impl From<PresetArg> for PushPullPreset {
+    fn from(preset: PresetArg) -> Self {
+        match preset {
+            PresetArg::Fast => Self::Fast,
+            PresetArg::Balanced => Self::Balanced,
+            PresetArg::Tough => Self::Tough,
+            PresetArg::Paper1 => Self::Paper1,
+            PresetArg::Paper2 => Self::Paper2,
+            PresetArg::Paper3 => Self::Paper3,
+        }
+    }
+}
+
+fn parse_target(text: &str) -> Result<Target, String> {
+    if text == "off" {
+        return Ok(Target(None));
+    }
+    text.parse().map(|number| Target(Some(number))).map_err(|_| "it must be a number, or off".to_owned())
+}

@@ -1,0 +1,99 @@
+//! Weighted sample elimination: of many points, those go one by one that are most crowded, until so many are left as were asked for.
+//!
+//! Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", Computer Graphics Forum 34(2), 2015, doi 10.1111/cgf.12538, with its
+//! constants. What is left stands in the paper's progressive order: the first half, the first quarter and so on are spread evenly too.
+//!
+//! What differs from the paper: points are found in bins, not in a kd-tree. Cost: O(m log m) for m points.
+
+use std::collections::BinaryHeap;
+
+use glam::DVec2;
+
+use super::bins::Bins;
+use super::order::hilbert_order;
+use super::point_set::PointSet;
+use crate::error::Error;
+use crate::space::Domain;
+
+/// Candidates a point that the paper finds enough.
+pub const CANDIDATES_A_POINT: usize = 5;
+
+/// The paper's alpha, beta and gamma.
+const ALPHA: i32 = 8;
+const BETA: f64 = 0.65;
+const GAMMA: f64 = 1.5;
+
+/// `n_points` of the `candidates`, spread evenly, in progressive order.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] for no points, or more than there are candidates.
+///
+/// # Example
+/// ```
+/// use evenly::{Rectangle, eliminate, measure, white};
+///
+/// let candidates = white(Rectangle::new([0.0, 0.0], [2.0, 1.0])?, 5000, 7)?;
+/// let points = eliminate(&candidates, 1000)?;
+/// assert_eq!(points.n_points(), 1000);
+/// assert!(measure(&points)?.min_distance > 0.65);
+/// # Ok::<(), evenly::Error>(())
+/// ```
+pub fn eliminate(candidates: &PointSet, n_points: usize) -> Result<PointSet, Error> {
+    let n_candidates = candidates.n_points();
+    if n_points == 0 || n_points > n_candidates {
+        let expected = "1 or more, and at most the number of candidates";
+        return Err(Error::InvalidParameter { name: "n_points", value: n_points.to_string(), expected });
+    }
+    let (domain, places) = candidates.normalized();
+    let mut left = hilbert_order(&places, domain.size);
+    let _ = thin(&domain, &places, &mut left, n_points);
+    // From the last place to the first: half of what is left goes, and stands behind what stays.
+    let mut order = Vec::with_capacity(n_points);
+    while left.len() > 1 {
+        let n_half = left.len() / 2;
+        order.extend(thin(&domain, &places, &mut left, n_half));
+    }
+    order.extend(left);
+    let positions = order.iter().rev().map(|&index| candidates.positions()[index as usize]).collect();
+    PointSet::new(*candidates.space(), positions)
+}
+
+/// Takes points out until `n_points` are left; returns them in the order in which they went.
+fn thin(domain: &Domain, places: &[DVec2], left: &mut Vec<u32>, n_points: usize) -> Vec<u32> {
+    // Twice the paper's r_max and r_min.
+    let farthest = domain.hex_spacing(n_points);
+    let nearest = farthest * (1.0 - (n_points as f64 / left.len() as f64).powf(GAMMA)) * BETA;
+    let mut bins = Bins::new(domain, farthest);
+    left.iter().for_each(|&index| bins.push(places[index as usize]));
+    let weight =
+        |squared: f64| if squared < farthest * farthest { (1.0 - squared.sqrt().max(nearest) / farthest).powi(ALPHA) } else { 0.0 };
+    let near = |k: u32| bins.near(bins.places()[k as usize]).filter(move |&(other, _)| other != k);
+
+    let mut is_left = vec![true; left.len()];
+    let mut weights: Vec<f64> = (0..left.len() as u32).map(|k| near(k).map(|(_, way)| weight(way.length_squared())).sum()).collect();
+    // Weights only fall, so what is on top with a weight that is not its own any more goes back down.
+    let key = |weight: f64, k: u32| (weight.max(0.0).to_bits(), std::cmp::Reverse(k));
+    let mut heap: BinaryHeap<_> = weights.iter().zip(0..).map(|(&weight, k)| key(weight, k)).collect();
+    let mut gone = Vec::with_capacity(left.len() - n_points);
+    while gone.len() < left.len() - n_points
+        && let Some(top) = heap.pop()
+    {
+        let k = top.1.0;
+        let now = key(weights[k as usize], k);
+        if now != top {
+            heap.push(now);
+            continue;
+        }
+        is_left[k as usize] = false;
+        gone.push(left[k as usize]);
+        for (other, way) in near(k) {
+            weights[other as usize] -= weight(way.length_squared());
+        }
+    }
+    let mut k = 0;
+    left.retain(|_| {
+        k += 1;
+        is_left[k - 1]
+    });
+    gone
+}

@@ -1,0 +1,441 @@
+//! Maximal Poisson-disk sampling: random points, no two nearer than a spacing, no place farther from all of them than that.
+//!
+//! Ebeida, Mitchell, Patney, Davidson and Owens, "A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions", Computer Graphics Forum 31(2),
+//! 2012, doi 10.1111/j.1467-8659.2012.03059.x. Cells that can hold one point each are divided like quadtrees; the squares that one disk covers
+//! are left out, and darts fall on the rest, until nothing is left. With two radii after Mitchell, Rand, Ebeida and Bajaj, "Variable Radii Poisson-Disk
+//! Sampling", Canadian Conference on Computational Geometry, 2012.
+//!
+//! What differs from the paper, and why: it throws darts at the whole domain, level by level. Here each cell has a clock that rings at a rate
+//! proportional to the area of its squares, and a cell may throw once no cell around it has an earlier time. The points are distributed as those of darts
+//! thrown one after the other at the whole domain, but are found in the order in which memory lies.
+//!
+//! Cost: O(n), some six darts a point. The result is maximal to within 1e-13 of the spacing.
+
+use glam::DVec2;
+
+use super::eliminate::eliminate;
+use super::point_set::PointSet;
+use super::random::Random;
+use crate::error::Error;
+use crate::space::{Domain, GRID, Space, snap};
+
+/// What [`poisson_disk`] can be told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoissonDiskParams {
+    /// No two points are nearer than this, in input units. On a torus at most its shorter side.
+    pub spacing: f64,
+    /// No place is farther from all points than this, in input units; `spacing` or more. `None` for `spacing` itself: more makes points fewer, and
+    /// more random.
+    pub coverage: Option<f64>,
+    /// The same seed gives the same points.
+    pub seed: u64,
+}
+
+impl PoissonDiskParams {
+    /// The spacing with which about `n_points` points fit, and seed 0: on a torus sqrt(0.697 A / n), in a rectangle a little more, as its border takes more
+    /// points. How many there will be is chance, with a standard deviation of 0.23 sqrt(n).
+    pub fn for_about(space: &Space, n_points: usize) -> Self {
+        /// The points of a maximal set in an area of one squared spacing, and further ones on a border as long as the spacing.
+        const DENSITY: f64 = 0.697;
+        const ON_BORDER: f64 = 0.228;
+        // In square roots of the area over n, which do not underflow.
+        let unit = space.hex_spacing(n_points.max(1)) * 0.75f64.sqrt().sqrt();
+        let [width, height] = space.size();
+        let border = if space.is_periodic() { 0.0 } else { ON_BORDER * 2.0 * (width + height) / unit / n_points.max(1) as f64 };
+        // n = DENSITY A / spacing^2 + ON_BORDER perimeter / spacing.
+        let spacing = unit * 0.5 * (border + (border * border + 4.0 * DENSITY).sqrt());
+        Self { spacing, coverage: None, seed: 0 }
+    }
+
+    /// Checks the parameters, as [`poisson_disk`] does before it begins.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn validate(&self, space: &Space) -> Result<(), Error> {
+        let invalid = |name, value: f64, expected| Err(Error::InvalidParameter { name, value: value.to_string(), expected });
+        if !(self.spacing > 0.0 && self.spacing.is_finite()) {
+            return invalid("spacing", self.spacing, "positive and finite");
+        }
+        if space.is_periodic() && self.spacing > f64::min(space.size()[0], space.size()[1]) {
+            return invalid("spacing", self.spacing, "at most the torus' shorter side, or a point is too near to itself");
+        }
+        if let Some(radius) = self.coverage.filter(|&radius| !(radius >= self.spacing && radius.is_finite())) {
+            return invalid("coverage", radius, "the spacing or more, and finite");
+        }
+        PointSet::validate_spacing(space, self.spacing)
+    }
+}
+
+/// Random points that stand in rows of cells: no two nearer than the spacing, and no place of the domain, its border included, farther from all of
+/// them than the coverage radius.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] for a spacing that is not positive, or more than a torus' shorter side, and for a coverage radius below the spacing;
+/// [`Error::TooManyPoints`] and [`Error::TooFine`] for more points than the domain can hold.
+///
+/// # Example
+/// ```
+/// use evenly::{PoissonDiskParams, Rectangle, measure, poisson_disk};
+///
+/// let params = PoissonDiskParams { spacing: 0.02, coverage: None, seed: 7 };
+/// let points = poisson_disk(Rectangle::new([0.0, 0.0], [1.0, 1.0])?, &params)?;
+/// let measures = measure(&points)?;
+/// assert!(measures.min_distance * measures.hex_spacing >= 0.02 && measures.coverage_radius * measures.hex_spacing <= 0.02);
+/// # Ok::<(), evenly::Error>(())
+/// ```
+pub fn poisson_disk(space: impl Into<Space>, params: &PoissonDiskParams) -> Result<PointSet, Error> {
+    let space = space.into();
+    params.validate(&space)?;
+    let domain = space.domain();
+    let mut darts = Darts::new(&space, &domain, params);
+    for cell in darts.cells.own() {
+        darts.finish(cell);
+    }
+    let cells = &darts.cells;
+    let points = cells.own().map(|cell| cells.points[cell]).filter(|point| !point.is_nan());
+    Ok(PointSet::from_normalized(space, points))
+}
+
+/// Exactly `n_points` points that are a maximal Poisson-disk sample but for a few gaps: of a slightly denser one those go that are most crowded.
+/// In progressive order, as [`eliminate`] leaves them.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] for no points; otherwise as [`poisson_disk`].
+pub fn poisson_disk_of(space: impl Into<Space>, n_points: usize, seed: u64) -> Result<PointSet, Error> {
+    let space = space.into();
+    PointSet::validate(&space, n_points)?;
+    // Three standard deviations.
+    let mut surplus = 1 + (0.7 * (n_points as f64).sqrt()) as usize;
+    loop {
+        let params = PoissonDiskParams::for_about(&space, n_points + surplus);
+        // Of few points on a torus each may be near to itself.
+        let spacing = if space.is_periodic() { params.spacing.min(space.size()[0].min(space.size()[1])) } else { params.spacing };
+        let points = poisson_disk(space, &PoissonDiskParams { spacing, seed, ..params })?;
+        if points.n_points() >= n_points {
+            return eliminate(&points, n_points);
+        }
+        surplus *= 2;
+    }
+}
+
+/// A grid of cells so small that each holds one point at most; around it, as far as disks reach, on a torus copies, and in a rectangle nothing.
+struct Cells {
+    domain: Domain,
+    side: DVec2,
+    /// Cells of the domain along each axis, and how many more stand on each side.
+    n_own: [usize; 2],
+    margin: [usize; 2],
+    stride: usize,
+    /// The point in each cell, NaN where there is none.
+    points: Vec<DVec2>,
+    /// When a dart is thrown next; infinite where all is covered.
+    clocks: Vec<f32>,
+    /// From a cell to those whose points may be nearer than the larger radius to one of its own.
+    around: Vec<isize>,
+}
+
+impl Cells {
+    fn new(domain: &Domain, spacing: f64, reach: f64) -> Self {
+        let n_own = (domain.size * (std::f64::consts::SQRT_2 / spacing)).ceil().max(DVec2::ONE);
+        let side = domain.size / n_own;
+        let n_own = n_own.to_array().map(|n| n as usize);
+        let margin = (reach / side).ceil().to_array().map(|n| n as usize);
+        // In a rectangle nothing lies further than its far side.
+        let margin = if domain.is_periodic { margin } else { [margin[0].min(n_own[0]), margin[1].min(n_own[1])] };
+        let stride = n_own[0] + 2 * margin[0];
+        let n_cells = stride * (n_own[1] + 2 * margin[1]);
+        let [width, height] = margin.map(|n| n as isize);
+        // The nearest places of two cells that stand so far apart.
+        let gap = |cells: isize, side: f64| (cells.abs() - 1).max(0) as f64 * side;
+        let around = (-height..=height).flat_map(|y| (-width..=width).map(move |x| [x, y]));
+        let around = around.filter(|&[x, y]| [x, y] != [0, 0] && gap(x, side.x).hypot(gap(y, side.y)) < reach);
+        // The nearest first: their disks cover most.
+        let mut around: Vec<[isize; 2]> = around.collect();
+        around.sort_by_key(|[x, y]| x * x + y * y);
+        let around = around.into_iter().map(|[x, y]| x + y * stride as isize).collect();
+        let (points, clocks) = (vec![DVec2::NAN; n_cells], vec![f32::INFINITY; n_cells]);
+        Self { domain: *domain, side, n_own, margin, stride, points, clocks, around }
+    }
+
+    /// The cells of the domain, row by row.
+    fn own(&self) -> impl Iterator<Item = usize> + use<> {
+        let (Self { margin, stride, .. }, [width, height]) = (self, self.n_own);
+        let (first, stride) = (margin[0] + margin[1] * stride, *stride);
+        (0..height).flat_map(move |row| first + row * stride..first + row * stride + width)
+    }
+
+    /// Column and row in the domain; of a copy, beyond it.
+    fn place(&self, cell: usize) -> [isize; 2] {
+        let (cell, stride) = (cell as u32, self.stride as u32);
+        [(cell % stride) as isize - self.margin[0] as isize, (cell / stride) as isize - self.margin[1] as isize]
+    }
+
+    /// The lower left corner of a cell.
+    fn corner(&self, cell: usize) -> DVec2 {
+        let [column, row] = self.place(cell);
+        DVec2::new(column as f64, row as f64) * self.side
+    }
+
+    /// What stands in the cells around, NaN where nothing does.
+    fn around(&self, cell: usize) -> impl Iterator<Item = DVec2> {
+        self.around.iter().map(move |&by| self.points[(cell as isize + by) as usize])
+    }
+
+    /// A cell around whose dart falls earlier, if there is one.
+    fn earlier(&self, cell: usize) -> Option<usize> {
+        let time = self.clocks[cell];
+        let mut others = self.around.iter().map(|&by| (cell as isize + by) as usize);
+        others.find(|&other| self.clocks[other] < time && time < f32::INFINITY).map(|other| self.original(other))
+    }
+
+    fn put(&mut self, point: DVec2) {
+        let [column, row] = (point / self.side).as_uvec2().to_array().map(|n| n as usize);
+        // On the far side, or next to it, rounding may be one cell off.
+        let [column, row] = [column.min(self.n_own[0] - 1), row.min(self.n_own[1] - 1)];
+        let cell = column + self.margin[0] + (row + self.margin[1]) * self.stride;
+        self.points[cell] = point;
+        self.copies(cell).for_each(|(copy, period)| self.points[copy] = point + period);
+        self.set_clock(cell, f32::INFINITY);
+    }
+
+    fn set_clock(&mut self, cell: usize, time: f32) {
+        self.clocks[cell] = time;
+        self.copies(cell).for_each(|(copy, _)| self.clocks[copy] = time);
+    }
+
+    /// The cell of the domain that this one is, or is a copy of.
+    fn original(&self, cell: usize) -> usize {
+        let [x, y] = self.place(cell);
+        let [width, height] = self.n_own.map(|n| n as isize);
+        (x.rem_euclid(width) as usize + self.margin[0]) + (y.rem_euclid(height) as usize + self.margin[1]) * self.stride
+    }
+
+    /// The copies of a cell of the domain, and the periods to them.
+    fn copies(&self, cell: usize) -> impl Iterator<Item = (usize, DVec2)> + use<> {
+        let &Self { domain, n_own, margin, stride, .. } = self;
+        let place = self.place(cell);
+        // In periods, from the first copy beyond the near side to the last beyond the far one.
+        let periods = |axis: usize| {
+            let [n, margin] = [n_own[axis], margin[axis]].map(|n| n as isize);
+            if domain.is_periodic { -((place[axis] + margin) / n)..=(n + margin - 1 - place[axis]) / n } else { 0..=0 }
+        };
+        let (columns, rows) = (periods(0), periods(1));
+        let all = rows.flat_map(move |y| columns.clone().map(move |x| [x, y])).filter(|&periods| periods != [0, 0]);
+        all.map(move |[x, y]| {
+            let by = x * n_own[0] as isize + y * (n_own[1] * stride) as isize;
+            ((cell as isize + by) as usize, DVec2::new(x as f64, y as f64) * domain.size)
+        })
+    }
+}
+
+/// The state of a sampling.
+struct Darts {
+    cells: Cells,
+    /// How often each cell's squares have been divided.
+    levels: Vec<u8>,
+    /// The squares that no disk covered when they were divided last, a bit each, in rows of eight; of a level beyond [`KEPT`], those of that one.
+    squares_kept: Vec<u64>,
+    /// Their area, in cells: it sets the pace of the clock.
+    areas: Vec<f32>,
+    random: Random,
+    /// Squared: a little more than the spacing, so that rounding takes nothing away.
+    conflict: f64,
+    /// Squared: a little less than the coverage radius.
+    coverage: f64,
+    /// By how much the coverage radius is larger than the spacing: a point that is displaced by less covers where it was.
+    slack: f64,
+    /// Squares are divided no more often: what they hold is lost in rounding.
+    max_level: u8,
+    /// Cells that wait for the one behind them.
+    waiting: Vec<usize>,
+    /// Points near the cell at hand.
+    near: Vec<DVec2>,
+    /// The centres of its squares.
+    squares: Vec<DVec2>,
+    divided: Vec<DVec2>,
+}
+
+/// What rounding may take from a length, relative to it.
+const ROUNDING: f64 = 1e-15;
+/// Squares smaller than this part of the spacing are taken for covered.
+const SMALLEST: f64 = 1e-13;
+/// The last level whose squares are kept: they are eight in a row.
+const KEPT: u8 = 3;
+/// So often another place is tried before a point is put where the dart fell.
+const TRIES: usize = 100;
+
+impl Darts {
+    fn new(space: &Space, domain: &Domain, params: &PoissonDiskParams) -> Self {
+        let scale = 1.0 / domain.restore_length(1.0);
+        let spacing = params.spacing * scale;
+        let coverage = params.coverage.unwrap_or(params.spacing) * scale;
+        let margin = ROUNDING + 2.0 * space.resolution() / params.spacing;
+        let slack = (coverage - spacing) * (1.0 - ROUNDING);
+        let cells = Cells::new(domain, spacing, coverage + slack);
+        let n_cells = cells.points.len();
+        let mut darts = Self {
+            cells,
+            levels: vec![0; n_cells],
+            squares_kept: vec![1; n_cells],
+            areas: vec![1.0; n_cells],
+            random: Random::new(params.seed, 2),
+            conflict: (spacing * (1.0 + margin)).powi(2),
+            coverage: (coverage * (1.0 - ROUNDING) - GRID).powi(2),
+            slack,
+            max_level: -margin.max(SMALLEST).max(GRID / spacing).log2() as u8,
+            waiting: Vec::new(),
+            near: Vec::new(),
+            squares: Vec::new(),
+            divided: Vec::new(),
+        };
+        for cell in darts.cells.own() {
+            darts.wind(cell, 0.0, 1.0);
+        }
+        darts
+    }
+
+    /// Throws darts at a cell until it is covered, and at those around it as their time comes.
+    fn finish(&mut self, cell: usize) {
+        while self.cells.clocks[cell] < f32::INFINITY {
+            self.waiting.push(cell);
+            while let Some(&cell) = self.waiting.last() {
+                match self.cells.earlier(cell) {
+                    Some(earlier) => self.waiting.push(earlier),
+                    None => {
+                        self.waiting.pop();
+                        self.throw(cell);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Throws a dart at one of a cell's squares; where it is too near to a point, divides them and winds the clock again.
+    fn throw(&mut self, cell: usize) {
+        let (mut level, time) = (self.levels[cell], self.cells.clocks[cell]);
+        if time == f32::INFINITY {
+            // While the cell waited, a displaced point has come into it.
+            return;
+        }
+        self.find_squares(cell, level);
+        // Since the clock was wound, disks may have covered some squares that are not kept.
+        let is_on_square = level <= KEPT || f64::from(self.areas[cell]) * self.random.unit() < self.area(level);
+        if is_on_square {
+            let dart = self.dart(level);
+            if self.is_farther(cell, dart, self.conflict.max(self.coverage)) {
+                let point = self.displaced(cell, dart);
+                self.cells.put(point);
+                if self.cells.clocks[cell] < f32::INFINITY {
+                    self.wind(cell, time, self.area(level));
+                }
+                return;
+            }
+            self.find_near(cell);
+            self.divide(level);
+            level += 1;
+            self.levels[cell] = level;
+            if level <= KEPT {
+                self.keep_squares(cell, level);
+            }
+        }
+        self.wind(cell, time, if level > self.max_level { 0.0 } else { self.area(level) });
+    }
+
+    /// A place in one of the squares.
+    fn dart(&mut self, level: u8) -> DVec2 {
+        let square = self.squares[(self.random.unit() * self.squares.len() as f64) as usize];
+        let x = self.random.signed();
+        snap(square + 0.5 * self.side(level) * DVec2::new(x, self.random.signed()))
+    }
+
+    /// Whether no point is nearer to a place than the root of `squared`.
+    fn is_farther(&self, cell: usize, place: DVec2, squared: f64) -> bool {
+        // No distance from NaN is below anything.
+        !self.cells.around(cell).any(|point| point.distance_squared(place) < squared)
+    }
+
+    /// A place that covers the dart's, and is not too near to a point.
+    fn displaced(&mut self, cell: usize, dart: DVec2) -> DVec2 {
+        for _ in 0..if self.slack > 0.0 { TRIES } else { 0 } {
+            let x = self.random.signed();
+            let by = DVec2::new(x, self.random.signed());
+            let place = snap(dart + self.slack * by);
+            let is_inside = self.cells.domain.is_periodic || self.cells.domain.contains(place);
+            if by.length_squared() <= 1.0 && is_inside && self.is_farther(cell, place, self.conflict) {
+                return self.cells.domain.land(place);
+            }
+        }
+        dart
+    }
+
+    /// Sets a cell's clock to when a dart falls next on so much area; never, on none.
+    fn wind(&mut self, cell: usize, time: f32, area: f64) {
+        let time = if area > 0.0 { time + (-(1.0 - self.random.unit()).ln() / area) as f32 } else { f32::INFINITY };
+        self.areas[cell] = area as f32;
+        self.cells.set_clock(cell, time);
+    }
+
+    /// The sides of a square.
+    fn side(&self, level: u8) -> DVec2 {
+        self.cells.side / (1u64 << level) as f64
+    }
+
+    /// The area of the squares, in cells.
+    fn area(&self, level: u8) -> f64 {
+        self.squares.len() as f64 / ((1u64 << level) as f64).powi(2)
+    }
+
+    /// The squares of a cell: as they were kept, and divided from there.
+    fn find_squares(&mut self, cell: usize, level: u8) {
+        let (corner, side) = (self.cells.corner(cell), self.side(level.min(KEPT)));
+        self.squares.clear();
+        let mut kept = self.squares_kept[cell];
+        while kept != 0 {
+            let bit = kept.trailing_zeros();
+            self.squares.push(corner + side * (DVec2::new(f64::from(bit & 7), f64::from(bit >> 3)) + 0.5));
+            kept &= kept - 1;
+        }
+        if level > KEPT {
+            self.find_near(cell);
+        }
+        for above in KEPT..level {
+            self.divide(above);
+        }
+    }
+
+    fn keep_squares(&mut self, cell: usize, level: u8) {
+        let (corner, side) = (self.cells.corner(cell), self.side(level));
+        let bit = |square: &DVec2| {
+            let [column, row] = ((*square - corner) / side).as_uvec2().to_array();
+            1 << (column | row << 3)
+        };
+        self.squares_kept[cell] = self.squares.iter().map(bit).sum();
+    }
+
+    fn find_near(&mut self, cell: usize) {
+        self.near.resize(self.cells.around.len(), DVec2::NAN);
+        let mut n_near = 0;
+        // Written whether it is one or not: that is hard to foresee.
+        for point in self.cells.around(cell) {
+            self.near[n_near] = point;
+            n_near += usize::from(!point.is_nan());
+        }
+        self.near.truncate(n_near);
+    }
+
+    /// Divides the squares of a level, and leaves out what one disk covers.
+    fn divide(&mut self, level: u8) {
+        let half = 0.5 * self.side(level + 1);
+        self.divided.clear();
+        for &square in &self.squares {
+            for by in [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE] {
+                let centre = square + by * half;
+                let is_covered = |near: &DVec2| ((*near - centre).abs() + half).length_squared() <= self.coverage;
+                if !self.near.iter().any(is_covered) {
+                    self.divided.push(centre);
+                }
+            }
+        }
+        std::mem::swap(&mut self.squares, &mut self.divided);
+    }
+}
