@@ -246,7 +246,7 @@ fn analysis_has_every_measure() {
     let shell = Shell::new();
     shell.ok("generate -n 300 -q -o a.txt");
     let measures = json(&shell.ok("analyze a.txt --json"));
-    let names = "n_points hex_spacing coincident_points min_distance mean_distance coverage_radius beta bond_order bond_order_psa bond_order_global \
+    let names = "n_points hex_spacing coincident_points min_distance mean_distance coverage_radius beta bond_order bond_order_psa bond_order_global cvt_energy \
                  capacity_sd capacity_max_deviation angle_rms_deg triangle_quality min_angle_deg max_angle_deg obtuse_fraction valence";
     for name in names.split_whitespace() {
         assert!(!measures[name].is_null(), "{name}");

@@ -53,7 +53,7 @@ pub struct Generate {
     /// How they are made: by an optimiser, or as one of its starts
     #[arg(long, default_value = "procrustes", value_parser = parser(|method| method != Method::Warp))]
     pub method: Method,
-    /// What an optimiser starts from [default: white]
+    /// What an optimiser starts from [default: white; opt-beta: poisson-disk]
     #[arg(long, value_parser = parser(Method::is_start), hide_possible_values = true)]
     pub start: Option<Method>,
     /// The same seed gives the same points

@@ -1,11 +1,13 @@
 //! The methods, and which flags each of them takes.
 
 use anyhow::bail;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValuesParser, StyledStr, TypedValueParser};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, ValueEnum};
 
-use Method::{Dart, Eliminate, Hexagonal, Jittered, PoissonDisk, Procrustes, PushPull, WellSpaced, White};
+use Method::{
+    Capacity, Dart, DistMesh, Eliminate, Hexagonal, Jittered, Lloyd, OptBeta, PoissonDisk, Procrustes, PushPull, WellSpaced, White,
+};
 
 /// How points are made, or made better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -16,6 +18,15 @@ pub enum Method {
     PushPull,
     /// Low beta, the ratio of the largest gap to the smallest distance (Ebeida et al.)
     WellSpaced,
+    /// Opt-beta: the least ratio of each cell by itself (Ebeida et al.)
+    OptBeta,
+    /// Lloyd's method: to the centroids of the Voronoi cells
+    Lloyd,
+    /// Springs between neighbours (Persson and Strang)
+    #[value(name = "distmesh")]
+    DistMesh,
+    /// Voronoi cells of equal area, and nothing else (Balzer et al.)
+    Capacity,
     /// Maximal Poisson-disk sampling (Ebeida et al.)
     PoissonDisk,
     /// Dart throwing (Cook)
@@ -32,23 +43,24 @@ pub enum Method {
     Warp,
 }
 
-const OPTIMIZERS: &[Method] = &[Procrustes, PushPull, WellSpaced];
+const OPTIMIZERS: &[Method] = &[Procrustes, PushPull, WellSpaced, OptBeta, Lloyd, DistMesh, Capacity];
 
 /// The flags that not every method takes, by their ids.
 const FLAGS: &[(&str, &[Method])] = &[
     ("start", OPTIMIZERS),
     ("iterations", OPTIMIZERS),
-    ("no_warp", OPTIMIZERS),
+    ("no_warp", &[Procrustes, PushPull, WellSpaced]),
     ("mode", &[Procrustes]),
     ("side", &[Procrustes]),
-    ("tolerance", &[Procrustes]),
+    ("tolerance", &[Procrustes, Lloyd, DistMesh]),
     ("preset", &[PushPull]),
     ("min_distance", &[PushPull]),
     ("coverage_radius", &[PushPull]),
-    ("capacity_tolerance", &[PushPull]),
+    ("capacity_tolerance", &[PushPull, Capacity]),
     ("relaxation", &[PushPull]),
     ("schedule", &[PushPull]),
-    ("beta", &[WellSpaced]),
+    ("beta", &[WellSpaced, OptBeta]),
+    ("damping", &[OptBeta]),
     ("spacing", &[PoissonDisk, Dart]),
     ("coverage", &[PoissonDisk]),
     ("tries", &[Dart]),
@@ -67,6 +79,11 @@ impl Method {
     /// Whether it makes points that an optimiser can begin with.
     pub fn is_start(self) -> bool {
         [PoissonDisk, Dart, Eliminate, White, Jittered, Hexagonal].contains(&self)
+    }
+
+    /// What it starts from, as an optimiser, if nothing else is asked for.
+    pub fn default_start(self) -> Self {
+        if self == OptBeta { PoissonDisk } else { White }
     }
 
     /// Refuses flags of other methods.
@@ -90,8 +107,12 @@ pub fn with_methods(command: Command) -> Command {
     command.mut_args(|arg| {
         let own = FLAGS.iter().find(|(id, methods)| arg.get_id() == id && *methods != OPTIMIZERS);
         let Some((_, methods)) = own else { return arg };
-        let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
-        arg.help(format!("{}: {help}", names(methods)))
+        let own = |help: Option<&StyledStr>| format!("{}: {}", names(methods), help.map(ToString::to_string).unwrap_or_default());
+        let help = own(arg.get_help());
+        match arg.get_long_help() {
+            Some(long) => arg.clone().help(help).long_help(own(Some(long))),
+            None => arg.help(help),
+        }
     })
 }
 

@@ -1,8 +1,9 @@
 //! The optimisers behind one face: what a run needs to know of whichever it is.
 
 use evenly::{
-    Error, Measures, PointSet, ProcrustesParams, PushPullParams, Report, RunContext, Space, UnmetTarget, WellSpacedParams, procrustes,
-    push_pull, warp, warp_isotropic, well_spaced,
+    CapacityParams, DistMeshParams, Error, LloydParams, Measures, OptBetaParams, PointSet, ProcrustesParams, PushPullParams, Report,
+    RunContext, Space, UnmetTarget, WellSpacedParams, capacity, distmesh, lloyd, opt_beta, procrustes, push_pull, warp, warp_isotropic,
+    well_spaced,
 };
 use serde_json::Value;
 
@@ -115,6 +116,82 @@ impl Optimizer for WellSpacedParams {
 
     fn advice(&self, space: &Space) -> Option<String> {
         Self::advice(self, space)
+    }
+
+    fn worst_miss(&self, measures: &Measures) -> f64 {
+        Self::worst_miss(self, measures)
+    }
+
+    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
+        Self::unmet(self, measures).into_iter().collect()
+    }
+}
+
+impl Optimizer for OptBetaParams {
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        opt_beta(points, self, run)
+    }
+
+    fn parameters(&self) -> Value {
+        serde_json::json!(self)
+    }
+
+    fn has_targets(&self) -> bool {
+        true
+    }
+
+    fn worst_miss(&self, measures: &Measures) -> f64 {
+        Self::worst_miss(self, measures)
+    }
+
+    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
+        Self::unmet(self, measures).into_iter().collect()
+    }
+}
+
+impl Optimizer for LloydParams {
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        lloyd(points, self, run)
+    }
+
+    fn parameters(&self) -> Value {
+        serde_json::json!(self)
+    }
+
+    fn seed(&self) -> Option<u64> {
+        Some(self.seed)
+    }
+}
+
+impl Optimizer for DistMeshParams {
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        distmesh(points, self, run)
+    }
+
+    fn parameters(&self) -> Value {
+        serde_json::json!(self)
+    }
+
+    fn seed(&self) -> Option<u64> {
+        Some(self.seed)
+    }
+}
+
+impl Optimizer for CapacityParams {
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        capacity(points, self, run)
+    }
+
+    fn parameters(&self) -> Value {
+        serde_json::json!(self)
+    }
+
+    fn seed(&self) -> Option<u64> {
+        Some(self.seed)
+    }
+
+    fn has_targets(&self) -> bool {
+        true
     }
 
     fn worst_miss(&self, measures: &Measures) -> f64 {

@@ -226,6 +226,7 @@ impl<'a> Session<'a> {
         let steps = if run.is_some_and(|run| run.visits > 0) { "passes" } else { "iterations" };
         let how = match run.map(|run| (run.outcome, run.iterations)) {
             Some((Outcome::Converged, n)) => format!(", converged in {n} {steps}"),
+            Some((Outcome::IterationsDone, n)) => format!(", {n} {steps}"),
             Some((Outcome::IterationLimit | Outcome::LostToRounding, n)) => format!(", not converged in {n} {steps}"),
             Some((Outcome::Cancelled, n)) => format!(", interrupted after {n} {steps}"),
             Some((Outcome::NothingToDo, _)) | None => String::new(),

@@ -93,6 +93,8 @@ impl<'a> RunContext<'a> {
 pub enum Outcome {
     /// The stop criterion was met.
     Converged,
+    /// As many iterations or passes were made as were asked for.
+    IterationsDone,
     /// The limit of iterations or passes came first; the best state reached is kept.
     IterationLimit,
     /// The stop criterion was met, but not any more after rounding to input units: the domain is too far from 0.

@@ -4,6 +4,8 @@
 //! vertex' Voronoi cell: with c and s the cosine and sine of its angle, R = |u - v| / (2 s), and the half of the
 //! Voronoi edge on u that lies in it is (v - u c) / (2 s) long, negative where it lies on the other side of u.
 
+use glam::DVec2;
+
 /// The angle between a spoke and the next one, counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wedge {
@@ -32,15 +34,34 @@ pub(crate) struct Star {
     pub is_mirror: Vec<bool>,
     /// A rule that moves the vertex itself leaves a weight for each spoke: it goes by the sum of weight times spoke. Empty at first.
     pub weights: Vec<f64>,
+    /// For a rule that asks for it, the star and the stars around it laid out in a plane, the vertex itself at its origin: where the neighbours are,
+    /// counter-clockwise.
+    pub ring: Vec<DVec2>,
+    /// Where their other neighbours are.
+    pub beyond: Vec<DVec2>,
+    /// And the walls of the domain.
+    pub walls: Vec<Wall>,
+    /// In that plane, where the vertex goes.
+    pub shift: DVec2,
     /// Room for a rule's own reckoning.
     pub scratch: Vec<f64>,
     /// The lengths of the Voronoi edges across the spokes, as [`Self::measure_cell`] has found them.
     pub sides: Vec<f64>,
 }
 
+/// The side of a bounded domain: places p inside have p . normal <= distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Wall {
+    pub normal: DVec2,
+    pub distance: f64,
+}
+
 /// A local method: what is wrong in a star, and what would mend it.
 pub(crate) trait Rule: Sync {
-    /// Leaves new `lengths`, or `weights`; false where all is as it should be, and nothing is to be done.
+    /// Whether the rule looks beyond the star, at `ring`, `beyond` and `walls`, and may leave a `shift`.
+    const LOOKS_AROUND: bool = false;
+
+    /// Leaves new `lengths`, `weights` or a `shift`; false where all is as it should be, and nothing is to be done.
     fn visit(&self, star: &mut Star) -> bool;
 }
 
@@ -54,6 +75,7 @@ impl Star {
         self.wedges.clear();
         self.is_mirror.clear();
         self.weights.clear();
+        self.shift = DVec2::ZERO;
     }
 
     /// The spoke after `k`.
@@ -74,6 +96,14 @@ impl Star {
         0.5 * self.rim_squared(k).sqrt() * self.wedges[k].cosecant
     }
 
+    /// The circumcentre of wedge `k`'s triangle, as a combination of its two spokes.
+    #[inline]
+    pub fn centre(&self, k: usize) -> [f64; 2] {
+        let (u, v, Wedge { cos, cosecant, .. }) = (self.lengths[k], self.lengths[self.after(k)], self.wedges[k]);
+        let half = 0.5 * cosecant * cosecant;
+        [(u - v * cos) * half / u, (v - u * cos) * half / v]
+    }
+
     /// The square of the distance between the ends of spokes `k` and `k + 1`.
     #[inline]
     fn rim_squared(&self, k: usize) -> f64 {
@@ -84,6 +114,43 @@ impl Star {
     /// Whether that is so in all wedges.
     pub fn is_all_covered(&self, radius: f64) -> bool {
         (0..self.n_spokes()).all(|k| self.is_covered(k, radius))
+    }
+
+    /// The spokes laid out in a plane, the first along its x axis.
+    pub fn unfolded(&self) -> impl Iterator<Item = DVec2> {
+        let mut direction = DVec2::X;
+        self.lengths.iter().zip(&self.wedges).map(move |(&length, wedge)| {
+            let spoke = length * direction;
+            direction = direction.rotate(DVec2::new(wedge.cos, wedge.sin));
+            spoke
+        })
+    }
+
+    /// How far the vertex is to go by `weights`.
+    pub fn own_move(&self) -> f64 {
+        self.unfolded().zip(&self.weights).map(|(spoke, &weight)| weight * spoke).sum::<DVec2>().length()
+    }
+
+    /// Leaves the centroid of the Voronoi cell in `weights`.
+    pub fn find_centroid(&mut self) {
+        let n = self.n_spokes();
+        self.weights.clear();
+        self.weights.resize(n, 0.0);
+        let mut area = 0.0;
+        for k in 0..n {
+            let after = self.after(k);
+            let (u, v) = (self.lengths[k], self.lengths[after]);
+            // Two triangles: the vertex, the middle of a spoke, the circumcentre.
+            let [half_u, half_v] = self.wedges[k].halves(u, v);
+            let (of_u, of_v) = (0.25 * u * half_u, 0.25 * v * half_v);
+            let [along_u, along_v] = self.centre(k);
+            let both = of_u + of_v;
+            self.weights[k] += both * along_u + 0.5 * of_u;
+            self.weights[after] += both * along_v + 0.5 * of_v;
+            area += both;
+        }
+        let scale = if area > 0.0 { 1.0 / (3.0 * area) } else { 0.0 };
+        self.weights.iter_mut().for_each(|weight| *weight *= scale);
     }
 
     /// The area of the Voronoi cell; leaves the lengths of its edges in `sides`.
@@ -125,6 +192,7 @@ mod tests {
         assert!((star.measure_cell() - 3f64.sqrt() / 2.0).abs() < 1e-14);
         for k in 0..6 {
             assert!((star.circumradius(k) - 1.0 / 3f64.sqrt()).abs() < 1e-14);
+            assert!(star.centre(k).iter().all(|part| (part - 1.0 / 3.0).abs() < 1e-14));
             assert!((star.sides[k] - 1.0 / 3f64.sqrt()).abs() < 1e-14);
             assert!(star.is_covered(k, 0.578) && !star.is_covered(k, 0.577));
         }
@@ -135,9 +203,12 @@ mod tests {
         let mut star = regular(4, 2.0);
         star.lengths[1] = 3.0;
         // The cell is 2 wide, and from -1 to 1.5 high.
+        star.find_centroid();
+        assert!((star.own_move() - 0.25).abs() < 1e-14);
         assert!((star.measure_cell() - 5.0).abs() < 1e-14);
         let sides = star.sides.iter().zip([2.5, 2.0, 2.5, 2.0]);
         assert!({ sides }.all(|(side, expected)| (side - expected).abs() < 1e-14));
         assert!((star.circumradius(0) - 13f64.sqrt() / 2.0).abs() < 1e-14);
+        assert!(star.centre(0).iter().all(|part| (part - 0.5).abs() < 1e-14));
     }
 }

@@ -18,7 +18,7 @@ pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     match optimizer {
         Some(optimizer) => {
             let n_points = args.n_points.context("--n-points is missing: how many?")?;
-            let begin = args.start.unwrap_or(Method::White);
+            let begin = args.start.unwrap_or(args.method.default_start());
             let points = session.time("start", || start(begin, space, n_points, args.seed))?;
             // Only white noise has long density waves.
             session.optimize(points, args.method, optimizer, begin == Method::White && !args.optimizer.no_warp)

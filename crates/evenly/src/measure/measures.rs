@@ -42,6 +42,9 @@ pub struct Measures {
     pub capacity_sd: f64,
     /// Largest deviation of a Voronoi cell's area from the mean.
     pub capacity_max_deviation: f64,
+    /// The energy of centroidal Voronoi tessellations: the sum over the cells of the squared distance to their point, integrated; relative to that of
+    /// the hexagonal lattice, which has the least.
+    pub cvt_energy: f64,
     /// Root mean square deviation of the triangles' angles from 60 degrees (Papazov and Hege, equation 7).
     pub angle_rms_deg: f64,
     /// Mean of twice the inradius over the circumradius; 1 for equilateral triangles (equation 8).
@@ -80,6 +83,7 @@ struct Sums {
     reach: f64,
     capacity_squares: f64,
     capacity_deviation: f64,
+    second_moment: f64,
     n_inner: usize,
     bond_order: f64,
     bond_edges: f64,
@@ -87,6 +91,9 @@ struct Sums {
     neighbours: usize,
     valence: BTreeMap<usize, usize>,
 }
+
+/// The second moment of a regular hexagon of area 1: 5 / (18 sqrt(3)).
+const HEXAGON: f64 = 0.160_375_074_774_976_5;
 
 /// Measures a set of at least three points, not all on one line.
 ///
@@ -135,6 +142,7 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         bond_order_global: sums.bond[0].hypot(sums.bond[1]) / n_inner,
         capacity_sd: (sums.capacity_squares / n_distinct as f64).sqrt(),
         capacity_max_deviation: sums.capacity_deviation,
+        cvt_energy: sums.second_moment / (HEXAGON * n_distinct as f64 * mean_capacity * mean_capacity),
         angle_rms_deg: triangles.all.angle_rms_deg(),
         triangle_quality: triangles.all.quality(),
         min_angle_deg: triangles.all.min_angle_deg(),
@@ -159,6 +167,7 @@ impl Sums {
         let deviation = star.capacity / mean_capacity - 1.0;
         self.capacity_squares += deviation * deviation;
         self.capacity_deviation = self.capacity_deviation.max(deviation.abs());
+        self.second_moment += star.second_moment;
         if star.is_inner {
             self.n_inner += 1;
             self.neighbours += star.valence;
@@ -176,6 +185,7 @@ impl Sums {
         self.reach = self.reach.max(other.reach);
         self.capacity_squares += other.capacity_squares;
         self.capacity_deviation = self.capacity_deviation.max(other.capacity_deviation);
+        self.second_moment += other.second_moment;
         self.n_inner += other.n_inner;
         self.neighbours += other.neighbours;
         self.bond_order += other.bond_order;

@@ -13,6 +13,8 @@ pub(super) struct StarMeasures {
     pub reach: f64,
     /// Area of its Voronoi cell.
     pub capacity: f64,
+    /// The squared distance from the vertex, integrated over its Voronoi cell.
+    pub second_moment: f64,
     /// Whether its Voronoi cell stays clear of the border.
     pub is_inner: bool,
     pub valence: usize,
@@ -42,6 +44,9 @@ impl<'a> StarReader<'a> {
             nearest: shortest.sqrt(),
             reach: farthest.sqrt(),
             capacity: 0.5 * cyclic_pairs(cell).map(|(a, b)| a.perp_dot(b)).sum::<f64>(),
+            second_moment: cyclic_pairs(cell)
+                .map(|(a, b)| a.perp_dot(b) * (a.length_squared() + a.dot(b) + b.length_squared()) / 12.0)
+                .sum(),
             is_inner,
             valence: spokes.len(),
             bond: bond / spokes.len() as f64,

@@ -1,10 +1,19 @@
 //! The methods, one file each; what serves one method alone stands in a folder of its name.
 
+mod capacity;
+mod distmesh;
+mod lloyd;
+mod opt_beta;
 mod prepare;
 mod procrustes;
 mod push_pull;
+mod relax;
 mod well_spaced;
 
+pub use capacity::{CapacityParams, capacity};
+pub use distmesh::{DistMeshParams, distmesh};
+pub use lloyd::{LloydParams, lloyd};
+pub use opt_beta::{OptBetaParams, opt_beta};
 pub use procrustes::{Mode, ProcrustesParams, procrustes};
 pub use push_pull::{PushPullParams, PushPullPreset, UnmetTarget, push_pull};
 pub use well_spaced::{WellSpacedParams, angle_bounds_deg, well_spaced};

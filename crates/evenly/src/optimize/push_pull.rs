@@ -28,7 +28,7 @@ use crate::measure::{Measures, measure};
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Report, RunContext};
 use crate::space::Space;
-use crate::sweep::{Ending, Plan, Schedule, Sweep};
+use crate::sweep::{Ending, Order, Plan, Schedule, Sweep};
 use crate::triangulation::LiveMesh;
 
 /// What [`push_pull`] can be told: the targets, each of which may be left out, and how to go for them.
@@ -263,8 +263,10 @@ pub(super) fn push_and_pull(
     run.enter(Phase::Optimize);
     let mut plan = Plan {
         schedule: params.schedule,
+        order: Order::Shuffled,
         max_passes: params.pass_limit(points.n_points()),
         seed: params.seed,
+        keeps_best: true,
         ends_if_diverging: params.relaxation > params.safe_relaxation(),
         ends_if_stuck: false,
     };

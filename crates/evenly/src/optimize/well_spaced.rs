@@ -59,9 +59,7 @@ impl WellSpacedParams {
     /// # Errors
     /// [`Error::InvalidParameter`] for a ratio outside [0.578, 2], or no passes.
     pub fn validate(&self) -> Result<(), Error> {
-        if !(self.beta >= 0.578 && self.beta <= 2.0) {
-            return Err(Error::InvalidParameter { name: "beta", value: self.beta.to_string(), expected: "0.578 or more, and 2 at most" });
-        }
+        validate_beta(self.beta)?;
         self.targets().validate()
     }
 
@@ -74,8 +72,7 @@ impl WellSpacedParams {
 
     /// The target that points with these measures do not reach, by more than a millionth.
     pub fn unmet(&self, measures: &Measures) -> Option<UnmetTarget> {
-        let is_met = measures.beta <= self.beta + 1e-6;
-        (!is_met).then_some(UnmetTarget { name: "beta", wanted: self.beta, measured: measures.beta })
+        unmet_beta(self.beta, measures)
     }
 
     /// By how much these measures miss the ratio, relative to it; 0 where it is met.
@@ -98,6 +95,21 @@ impl WellSpacedParams {
             ..PushPullParams::default()
         }
     }
+}
+
+/// # Errors
+/// [`Error::InvalidParameter`] for a ratio outside [0.578, 2].
+pub(super) fn validate_beta(beta: f64) -> Result<(), Error> {
+    if !(beta >= 0.578 && beta <= 2.0) {
+        return Err(Error::InvalidParameter { name: "beta", value: beta.to_string(), expected: "0.578 or more, and 2 at most" });
+    }
+    Ok(())
+}
+
+/// The ratio, if points with these measures do not reach it, by more than a millionth.
+pub(super) fn unmet_beta(beta: f64, measures: &Measures) -> Option<UnmetTarget> {
+    let is_met = measures.beta <= beta + 1e-6;
+    (!is_met).then_some(UnmetTarget { name: "beta", wanted: beta, measured: measures.beta })
 }
 
 /// The angles in degrees between which all angles of a Delaunay triangulation lie whose coverage radius is `beta` times its smallest distance; `None`

@@ -24,14 +24,26 @@ pub enum Schedule {
     Summed,
 }
 
+/// In which order the points of a cell are visited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// At random, anew in each pass.
+    Shuffled,
+    /// By rows of half a spacing, and along them.
+    Rows,
+}
+
 /// How a sweep is to go.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plan {
     pub schedule: Schedule,
+    pub order: Order,
     /// The sweep ends after so many passes in any case.
     pub max_passes: usize,
     /// The order of visits depends on it, on the pass and on the cell.
     pub seed: u64,
+    /// Whether the state with the least unrest is kept; otherwise the last one counts.
+    pub keeps_best: bool,
     /// Whether the sweep ends where it gets worse and worse.
     pub ends_if_diverging: bool,
     /// Whether it ends where no state better than the best has come for long.
@@ -68,6 +80,8 @@ struct Best {
     places: Vec<DVec2>,
 }
 
+/// Points that are looked at in one go.
+const CHUNK: usize = 1 << 12;
 /// A state is kept as the best if it has less than this share of what is wrong with the one that is kept: copies cost time.
 const BETTER: f64 = 0.9;
 /// A sweep is stuck that has found nothing better in this many passes, and in as many as it took to the best.
@@ -111,7 +125,7 @@ impl Sweep {
                 self.cells = Cells::new(&mut self.mesh);
             }
             let work = match plan.schedule {
-                Schedule::InTurn => self.pass(rule, Random::derived(plan.seed, report.iterations), run),
+                Schedule::InTurn => self.pass(rule, plan.order, Random::derived(plan.seed, report.iterations), run),
                 Schedule::Summed => Some(summed_pass(&mut self.mesh, rule)),
             };
             let Some(work) = work else { return Ok(Ending::Cancelled) };
@@ -120,7 +134,9 @@ impl Sweep {
             report.flips += work.n_flips;
             report.stable_share.push(1.0 - work.n_unstable as f64 / self.mesh.n_points() as f64);
             self.unrest.push(work.unrest.squares / self.mesh.n_points() as f64);
-            self.keep_best(&work, report.iterations);
+            if plan.keeps_best {
+                self.keep_best(&work, report.iterations);
+            }
             self.show(run, report);
             // Flips, and visits put off halfway, leave dirt that the pass has not seen.
             let is_still = work.n_unstable == 0 && (0..self.mesh.n_points() as u32).all(|v| !self.mesh.is_dirty(v));
@@ -146,14 +162,15 @@ impl Sweep {
     }
 
     /// Visits what is dirty: cell by cell, colour by colour, then what reaches too far. `None` if cancelled on the way.
-    fn pass(&mut self, rule: &impl Rule, seed: u64, run: &RunContext) -> Option<Work> {
+    fn pass(&mut self, rule: &impl Rule, order: Order, seed: u64, run: &RunContext) -> Option<Work> {
         let mut total = Work::default();
         for colour in self.cells.colours() {
             if run.is_cancelled() {
                 return None;
             }
             let cells = colour.into_par_iter();
-            let done: Vec<Work> = cells.map_init(StarBuffer::default, |buffer, cell| self.visit_cell(rule, cell, seed, buffer)).collect();
+            let done: Vec<Work> =
+                cells.map_init(StarBuffer::default, |buffer, cell| self.visit_cell(rule, cell, order, seed, buffer)).collect();
             done.iter().for_each(|work| total.add(work));
         }
         let deferred = std::mem::take(&mut total.deferred);
@@ -161,9 +178,12 @@ impl Sweep {
         Some(total)
     }
 
-    fn visit_cell(&self, rule: &impl Rule, cell: u32, seed: u64, buffer: &mut StarBuffer) -> Work {
+    fn visit_cell(&self, rule: &impl Rule, cell: u32, order: Order, seed: u64, buffer: &mut StarBuffer) -> Work {
         let mut dirty: Vec<u32> = self.cells.members(cell).iter().copied().filter(|&v| self.mesh.is_dirty(v)).collect();
-        Random::new(seed, u64::from(cell)).shuffle(&mut dirty);
+        match order {
+            Order::Shuffled => Random::new(seed, u64::from(cell)).shuffle(&mut dirty),
+            Order::Rows => self.mesh.sort_by_rows(&mut dirty, 0.5),
+        }
         self.visit_all(rule, &dirty, self.cells.territory(cell), buffer)
     }
 
@@ -209,6 +229,36 @@ impl Sweep {
         (self.mesh.into_order(), self.best.places)
     }
 
+    /// The smallest distance of two points and the largest circumradius, in spacings, in the state reached.
+    pub fn distance_and_radius(&mut self) -> [f64; 2] {
+        self.mesh.legalize();
+        let (mesh, all) = (&self.mesh, (0..self.mesh.n_points() as u32).collect::<Vec<u32>>());
+        let seen = all.par_chunks(CHUNK).map_init(StarBuffer::default, |buffer, chunk| {
+            let mut seen = [f64::INFINITY, 0.0];
+            for &v in chunk {
+                // With everything free, nothing lies outside.
+                let _ = mesh.read(v, Territory::EVERYTHING, buffer);
+                let star = &buffer.star;
+                let neighbours = star.lengths.iter().zip(&star.is_mirror).filter(|(_, is_mirror)| !**is_mirror);
+                seen[0] = neighbours.map(|(&length, _)| length).fold(seen[0], f64::min);
+                seen[1] = (0..star.n_spokes()).map(|k| star.circumradius(k)).fold(seen[1], f64::max);
+            }
+            seen
+        });
+        seen.reduce(|| [f64::INFINITY, 0.0], |a, b| [a[0].min(b[0]), a[1].max(b[1])])
+    }
+
+    /// The places of the points, as the mesh has them.
+    pub fn places(&self) -> Vec<DVec2> {
+        self.mesh.points()
+    }
+
+    /// The caller's index of each point, and its place in the last state.
+    pub fn into_last(self) -> (Vec<u32>, Vec<DVec2>) {
+        let places = self.mesh.points();
+        (self.mesh.into_order(), places)
+    }
+
     /// Unstable points become fewer about exponentially.
     fn show(&mut self, run: &mut RunContext, report: &Report) {
         let n_points = self.mesh.n_points() as f64;
@@ -246,7 +296,15 @@ mod tests {
 
     fn smooth(space: Space, schedule: Schedule, n_threads: usize) -> (PointSet, Report) {
         let mut points = white(space, 3000, 5).unwrap();
-        let plan = Plan { schedule, max_passes: 30, seed: 1, ends_if_diverging: false, ends_if_stuck: false };
+        let plan = Plan {
+            schedule,
+            order: Order::Shuffled,
+            max_passes: 30,
+            seed: 1,
+            keeps_best: true,
+            ends_if_diverging: false,
+            ends_if_stuck: false,
+        };
         let mut report = Report::new("smooth", 3000);
         let mut sweep = sweep(&points);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
@@ -279,7 +337,15 @@ mod tests {
         cancel.cancel();
         let mut sweep = sweep(&points);
         let mut report = Report::new("smooth", 100);
-        let plan = Plan { schedule: Schedule::InTurn, max_passes: 9, seed: 0, ends_if_diverging: false, ends_if_stuck: false };
+        let plan = Plan {
+            schedule: Schedule::InTurn,
+            order: Order::Shuffled,
+            max_passes: 9,
+            seed: 0,
+            keeps_best: true,
+            ends_if_diverging: false,
+            ends_if_stuck: false,
+        };
         let ending = sweep.run(&Smooth, &plan, &mut RunContext::default().with_cancel(cancel), &mut report).unwrap();
         assert_eq!((ending, report.iterations), (Ending::Cancelled, 0));
         let mut after = points.clone();

@@ -8,4 +8,4 @@ mod summed;
 mod visit;
 
 pub use engine::Schedule;
-pub(crate) use engine::{Ending, Plan, Sweep};
+pub(crate) use engine::{Ending, Order, Plan, Sweep};

@@ -78,8 +78,11 @@ pub(super) fn visit(mesh: &LiveMesh, rule: &impl Rule, v: u32, territory: Territ
 }
 
 /// Reads a star, and leaves the moves that the rule asks for in the buffer.
-pub(super) fn ask(mesh: &LiveMesh, rule: &impl Rule, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<Unrest, Outside> {
+pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<Unrest, Outside> {
     mesh.read(v, territory, buffer)?;
+    if R::LOOKS_AROUND {
+        mesh.look_around(v, territory, buffer)?;
+    }
     let StarBuffer { star, spokes, moves, .. } = buffer;
     moves.clear();
     if !rule.visit(star) {
@@ -89,6 +92,7 @@ pub(super) fn ask(mesh: &LiveMesh, rule: &impl Rule, v: u32, territory: Territor
     let mut unrest = Unrest::default();
     unrest.add_move(STILL);
     let mut own: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
+    own += mesh.spacing() * star.shift;
     for (spoke, length) in spokes.iter().zip(&star.lengths) {
         let change = (length - spoke.length).clamp(-LONGEST.min(NEARER * spoke.length), LONGEST);
         if change.abs() <= STILL || spoke.length == 0.0 {

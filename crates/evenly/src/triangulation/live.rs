@@ -87,6 +87,12 @@ impl LiveMesh {
         self.mesh.position(v)
     }
 
+    /// Sorts points by rows so many spacings high, and along them.
+    pub fn sort_by_rows(&self, points: &mut [u32], height: f64) {
+        let row = |v: u32| (self.position(v).y / (height * self.spacing)).floor();
+        points.sort_by(|&a, &b| row(a).total_cmp(&row(b)).then(self.position(a).x.total_cmp(&self.position(b).x)).then(a.cmp(&b)));
+    }
+
     pub fn is_dirty(&self, v: u32) -> bool {
         self.mesh.is_dirty(v)
     }

@@ -10,7 +10,7 @@ use super::live::{LiveMesh, Outside};
 use super::shared::Territory;
 use super::spoke::Spoke;
 use super::walls::WallCell;
-use crate::star::{Star, Wedge};
+use crate::star::{Star, Wall, Wedge};
 
 /// Where the sum of two cotangents is less than this much of its terms, exact arithmetic decides on its sign.
 const DOUBT: f64 = 1e-9;
@@ -27,6 +27,8 @@ pub(crate) struct StarBuffer {
     pub n_flips: usize,
     /// The spokes of a vertex that moves.
     pub(super) moving: Vec<Spoke>,
+    /// The vertices around one.
+    near: Vec<u32>,
     wall_cell: WallCell,
 }
 
@@ -35,6 +37,40 @@ impl LiveMesh {
     pub fn read(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         self.restore(v, territory, &mut buffer.spokes, &mut buffer.n_flips)?;
         self.fill(v, buffer);
+        Ok(())
+    }
+
+    /// Lays out the star of `v`, which has just been read, and the stars of its neighbours.
+    pub fn look_around(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        let StarBuffer { star, moving, near, n_flips, .. } = buffer;
+        self.walk(v, territory, moving)?;
+        near.clear();
+        near.extend(moving.iter().map(|spoke| spoke.vertex));
+        for k in 0..near.len() {
+            if near[k] < self.n_live {
+                self.restore(near[k], territory, moving, n_flips)?;
+                for spoke in moving.iter() {
+                    if !near.contains(&spoke.vertex) {
+                        near.push(spoke.vertex);
+                    }
+                }
+            }
+        }
+        // Flips around the neighbours may have added some.
+        self.walk(v, territory, moving)?;
+        let is_in_ring = |other: u32| other == v || moving.iter().any(|spoke| spoke.vertex == other);
+        let (at, scale) = (self.mesh.position(v), 1.0 / self.spacing);
+        let place = |other: u32| (other < self.n_live).then(|| scale * self.spoke(at, other));
+        star.ring.clear();
+        star.ring.extend(moving.iter().filter_map(|spoke| place(spoke.vertex)));
+        star.beyond.clear();
+        star.beyond.extend(near.iter().filter(|&&other| !is_in_ring(other)).filter_map(|&other| place(other)));
+        star.walls.clear();
+        if !self.domain.is_periodic {
+            let (low, high) = (scale * at, scale * (self.domain.size - at));
+            let walls = [(DVec2::NEG_X, low.x), (DVec2::NEG_Y, low.y), (DVec2::X, high.x), (DVec2::Y, high.y)];
+            star.walls.extend(walls.map(|(normal, distance)| Wall { normal, distance }));
+        }
         Ok(())
     }
 

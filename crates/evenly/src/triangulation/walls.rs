@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::spoke::{MIRROR, Spoke};
+use crate::space::GRID;
 use crate::star::{Star, Wedge};
 
 /// A cell clipped by walls, everything relative to its vertex: a polygon, counter-clockwise.
@@ -16,10 +17,10 @@ pub(super) struct WallCell {
 #[derive(Clone, Copy)]
 struct Side {
     corner: DVec2,
-    /// On whose bisector it lies, and the way there.
+    /// On whose bisector it lies, and the way there; never zero, also where the vertex is on a wall.
     vertex: u32,
     way: DVec2,
-    /// The unit vector there, also where a vertex on a wall has no way to its image.
+    /// The unit vector there.
     direction: DVec2,
 }
 
@@ -27,8 +28,12 @@ impl WallCell {
     /// Cuts the cell of a vertex at `at` out of the domain [0, size], by the bisectors with its neighbours.
     pub fn clip(&mut self, at: DVec2, size: DVec2, neighbours: impl Iterator<Item = (u32, DVec2)>) {
         let (low, high) = (-at, size - at);
-        let wall =
-            |corner: DVec2, direction: DVec2, distance: f64| Side { corner, vertex: MIRROR, way: 2.0 * distance * direction, direction };
+        let wall = |corner: DVec2, direction: DVec2, distance: f64| Side {
+            corner,
+            vertex: MIRROR,
+            way: 2.0 * distance.max(GRID) * direction,
+            direction,
+        };
         self.sides.clear();
         self.sides.extend([
             wall(low, DVec2::NEG_Y, at.y),

@@ -1,0 +1,77 @@
+//! Equal areas: each Voronoi cell that is too large or too small presses on its sides, until all areas are about the same.
+//!
+//! The capacity constraint of Balzer, Schloemer and Deussen, "Capacity-Constrained Point Distributions", ACM Transactions on Graphics 28(3), 2009, doi
+//! 10.1145/1531326.1531392, reached by the third of [`push_pull`](super::push_pull::push_pull)'s steps alone.
+//!
+//! Cost: O(n) in all. It does not promise any distance between points: areas can be equal where points nearly meet.
+
+use serde::Serialize;
+
+use super::push_pull::{PushPullParams, UnmetTarget, push_and_pull};
+use crate::error::Error;
+use crate::measure::Measures;
+use crate::points::PointSet;
+use crate::run::{Report, RunContext};
+
+/// What [`capacity`] can be told.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CapacityParams {
+    /// The area of each Voronoi cell shall differ from the mean by at most this part of it; positive.
+    pub capacity_tolerance: f64,
+    /// Stops after this many passes in any case; `None` for a limit that grows with the number of points, 2000 at least.
+    pub max_passes: Option<usize>,
+    /// The order of visits depends on it.
+    pub seed: u64,
+}
+
+impl Default for CapacityParams {
+    fn default() -> Self {
+        Self { capacity_tolerance: 0.0386, max_passes: None, seed: 0 }
+    }
+}
+
+impl CapacityParams {
+    /// Checks the parameters, as [`capacity`] does before it begins.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] for a tolerance that is not positive, or no passes.
+    pub fn validate(&self) -> Result<(), Error> {
+        self.targets().validate()
+    }
+
+    /// The target, if points with these measures do not reach it, by more than a millionth.
+    pub fn unmet(&self, measures: &Measures) -> Option<UnmetTarget> {
+        self.targets().unmet(measures).pop()
+    }
+
+    /// By how much these measures miss the tolerance; 0 where it is met.
+    pub fn worst_miss(&self, measures: &Measures) -> f64 {
+        self.targets().worst_miss(measures)
+    }
+
+    fn targets(&self) -> PushPullParams {
+        PushPullParams {
+            min_distance: None,
+            coverage_radius: None,
+            capacity_tolerance: Some(self.capacity_tolerance),
+            max_passes: self.max_passes,
+            seed: self.seed,
+            ..PushPullParams::default()
+        }
+    }
+}
+
+/// Optimises `points` in place; their number and order stay.
+///
+/// Where the tolerance is not reached, the report says so, and `points` are in the best state that was seen.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] as [`CapacityParams::validate`] has it; [`Error::TooFine`] where f64 cannot tell the points apart;
+/// [`Error::Degenerate`] where they cannot be triangulated. The points are untouched then.
+pub fn capacity(points: &mut PointSet, params: &CapacityParams, run: &mut RunContext) -> Result<Report, Error> {
+    params.validate()?;
+    let mut report = Report::new("capacity", points.n_points());
+    push_and_pull(points, &params.targets(), run, &mut report)?;
+    report.note_limit();
+    Ok(report)
+}
