@@ -6,7 +6,8 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, ValueEnum};
 
 use Method::{
-    Capacity, Dart, DistMesh, Eliminate, Hexagonal, Jittered, Lloyd, OptBeta, PoissonDisk, Procrustes, PushPull, WellSpaced, White,
+    Capacity, Cvt, Dart, DistMesh, Eliminate, FarthestPoint, Hexagonal, Jittered, Lloyd, OptBeta, PoissonDisk, Procrustes, PushPull,
+    WellSpaced, White,
 };
 
 /// How points are made, or made better.
@@ -22,6 +23,10 @@ pub enum Method {
     OptBeta,
     /// Lloyd's method: to the centroids of the Voronoi cells
     Lloyd,
+    /// Lloyd's energy by a quasi-Newton method (Liu et al.)
+    Cvt,
+    /// Farthest-point optimization (Schloemer et al.)
+    FarthestPoint,
     /// Springs between neighbours (Persson and Strang)
     #[value(name = "distmesh")]
     DistMesh,
@@ -43,7 +48,7 @@ pub enum Method {
     Warp,
 }
 
-const OPTIMIZERS: &[Method] = &[Procrustes, PushPull, WellSpaced, OptBeta, Lloyd, DistMesh, Capacity];
+const OPTIMIZERS: &[Method] = &[Procrustes, PushPull, WellSpaced, OptBeta, Lloyd, Cvt, FarthestPoint, DistMesh, Capacity];
 
 /// The flags that not every method takes, by their ids.
 const FLAGS: &[(&str, &[Method])] = &[
@@ -52,12 +57,13 @@ const FLAGS: &[(&str, &[Method])] = &[
     ("no_warp", &[Procrustes, PushPull, WellSpaced]),
     ("mode", &[Procrustes]),
     ("side", &[Procrustes]),
-    ("tolerance", &[Procrustes, Lloyd, DistMesh]),
+    ("tolerance", &[Procrustes, Lloyd, Cvt, DistMesh]),
     ("preset", &[PushPull]),
-    ("min_distance", &[PushPull]),
+    ("min_distance", &[PushPull, FarthestPoint]),
     ("coverage_radius", &[PushPull]),
     ("capacity_tolerance", &[PushPull, Capacity]),
-    ("relaxation", &[PushPull]),
+    ("relaxation", &[PushPull, FarthestPoint]),
+    ("local", &[FarthestPoint]),
     ("schedule", &[PushPull]),
     ("beta", &[WellSpaced, OptBeta]),
     ("damping", &[OptBeta]),

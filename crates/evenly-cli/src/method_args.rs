@@ -3,9 +3,9 @@
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use evenly::{
-    CANDIDATES_A_POINT, CapacityParams, DartParams, DistMeshParams, Error, LloydParams, Mode, OptBetaParams, PointSet, PoissonDiskParams,
-    ProcrustesParams, PushPullParams, PushPullPreset, Schedule, Space, WellSpacedParams, dart, eliminate, hexagonal, jittered,
-    poisson_disk, white,
+    CANDIDATES_A_POINT, CapacityParams, CvtParams, DartParams, DistMeshParams, Error, FarthestPointParams, LloydParams, Mode,
+    OptBetaParams, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams, PushPullPreset, Schedule, Space, WellSpacedParams, dart,
+    eliminate, hexagonal, jittered, poisson_disk, white,
 };
 
 use crate::method::Method;
@@ -19,13 +19,13 @@ pub struct OptimizerArgs {
     pub no_warp: bool,
     /// Stop after so many iterations or passes in any case [default: by the method]
     ///
-    /// By default 100 of lloyd, 200 of distmesh and opt-beta, 500 of procrustes, and 2000 of the others, more for more than 1000 points.
+    /// By default 100 of lloyd and cvt, 200 of distmesh and opt-beta, 500 of procrustes and farthest-point, and 2000 of the others, more for more than 1000 points.
     #[arg(short, long, value_name = "I", allow_negative_numbers = true)]
     iterations: Option<usize>,
     /// Targets, with the tolerance and relaxation that they need; the flags below change them one by one [default: balanced]
     #[arg(long, value_enum, help_heading = "Targets")]
     preset: Option<PresetArg>,
-    /// No two points nearer than this many hexagonal spacings, up to 1; or off
+    /// No two points nearer than this many hexagonal spacings, up to 1; or off [default: the preset's; farthest-point: 0.9]
     #[arg(long, value_name = "R", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Targets")]
     min_distance: Option<Target>,
     /// No place farther from a point than this many hexagonal spacings, 0.577 at least; or off
@@ -47,13 +47,19 @@ pub struct OptimizerArgs {
     /// Side of the model triangle in hexagonal spacings, good within 1 to 1.625 [default: 1.5]
     #[arg(long, value_name = "D", allow_negative_numbers = true, hide_short_help = true, help_heading = "Steps")]
     side: Option<f64>,
-    /// Stop when an iteration (fast: two in a row) gains less than this share of the domain's area, with lloyd and distmesh when no point goes farther than
-    /// this many hexagonal spacings [default: 0.00002; lloyd: 0.0001; distmesh: 0.001]
+    /// Stop when so little happens [default: procrustes: 0.00002; lloyd: 0.0001; cvt: 0.00001; distmesh: 0.001]
+    ///
+    /// Procrustes: an iteration (with --mode fast two in a row) gains less than this share of the domain's area. Lloyd and distmesh: no point goes farther
+    /// than this many hexagonal spacings. Cvt: on average (rms) points are no farther from their centroids.
     #[arg(long, value_name = "T", allow_negative_numbers = true, hide_short_help = true, help_heading = "Steps")]
     tolerance: Option<f64>,
-    /// The part of each move that is made; 1.2 reaches tougher targets, in turn [default: the preset's, 1; summed: 0.5]
+    /// The part of each move that is made; 1.2 lets push-pull reach tougher targets, in turn [default: the preset's, 1; summed: 0.5;
+    /// farthest-point: 1.8]
     #[arg(long, value_name = "W", allow_negative_numbers = true, hide_short_help = true, help_heading = "Steps")]
     relaxation: Option<f64>,
+    /// A point only looks at the gap that it leaves itself
+    #[arg(long, hide_short_help = true, help_heading = "Steps")]
+    local: bool,
     /// The part of each move that is made [default: 0.7 above a beta of 0.9, else 1]
     #[arg(long, value_name = "W", allow_negative_numbers = true, hide_short_help = true, help_heading = "Steps")]
     damping: Option<f64>,
@@ -122,6 +128,8 @@ impl OptimizerArgs {
             Method::WellSpaced => Box::new(self.well_spaced(seed).map_err(by_flag)?),
             Method::OptBeta => Box::new(self.opt_beta().map_err(by_flag)?),
             Method::Lloyd => Box::new(self.lloyd(seed).map_err(by_flag)?),
+            Method::Cvt => Box::new(self.cvt().map_err(by_flag)?),
+            Method::FarthestPoint => Box::new(self.farthest_point().map_err(by_flag)?),
             Method::DistMesh => Box::new(self.distmesh(seed).map_err(by_flag)?),
             Method::Capacity => Box::new(self.capacity(seed).map_err(by_flag)?),
             _ => return Ok(None),
@@ -178,6 +186,23 @@ impl OptimizerArgs {
         let mut params = LloydParams { seed, ..LloydParams::default() };
         set(&mut params.iterations, self.iterations);
         set(&mut params.tolerance, self.tolerance);
+        params.validate()?;
+        Ok(params)
+    }
+
+    fn cvt(&self) -> Result<CvtParams, Error> {
+        let mut params = CvtParams::default();
+        set(&mut params.iterations, self.iterations);
+        set(&mut params.tolerance, self.tolerance);
+        params.validate()?;
+        Ok(params)
+    }
+
+    fn farthest_point(&self) -> Result<FarthestPointParams, Error> {
+        let mut params = FarthestPointParams { is_local: self.local, ..FarthestPointParams::default() };
+        set(&mut params.min_distance, self.min_distance.map(|target| target.0));
+        set(&mut params.relaxation, self.relaxation);
+        set(&mut params.iterations, self.iterations);
         params.validate()?;
         Ok(params)
     }

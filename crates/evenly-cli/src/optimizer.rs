@@ -1,9 +1,9 @@
 //! The optimisers behind one face: what a run needs to know of whichever it is.
 
 use evenly::{
-    CapacityParams, DistMeshParams, Error, LloydParams, Measures, OptBetaParams, PointSet, ProcrustesParams, PushPullParams, Report,
-    RunContext, Space, UnmetTarget, WellSpacedParams, capacity, distmesh, lloyd, opt_beta, procrustes, push_pull, warp, warp_isotropic,
-    well_spaced,
+    CapacityParams, CvtParams, DistMeshParams, Error, FarthestPointParams, LloydParams, Measures, OptBetaParams, PointSet,
+    ProcrustesParams, PushPullParams, Report, RunContext, Space, UnmetTarget, WellSpacedParams, capacity, cvt, distmesh, farthest_point,
+    lloyd, opt_beta, procrustes, push_pull, warp, warp_isotropic, well_spaced,
 };
 use serde_json::Value;
 
@@ -200,5 +200,37 @@ impl Optimizer for CapacityParams {
 
     fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
         Self::unmet(self, measures).into_iter().collect()
+    }
+}
+
+impl Optimizer for FarthestPointParams {
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        farthest_point(points, self, run)
+    }
+
+    fn parameters(&self) -> Value {
+        serde_json::json!(self)
+    }
+
+    fn has_targets(&self) -> bool {
+        self.min_distance.is_some()
+    }
+
+    fn worst_miss(&self, measures: &Measures) -> f64 {
+        Self::worst_miss(self, measures)
+    }
+
+    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
+        Self::unmet(self, measures).into_iter().collect()
+    }
+}
+
+impl Optimizer for CvtParams {
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        cvt(points, self, run)
+    }
+
+    fn parameters(&self) -> Value {
+        serde_json::json!(self)
     }
 }

@@ -153,6 +153,19 @@ impl Star {
         self.weights.iter_mut().for_each(|weight| *weight *= scale);
     }
 
+    /// The squared distance from the vertex, integrated over its Voronoi cell.
+    pub fn second_moment(&self) -> f64 {
+        let of_wedge = |k: usize| {
+            let (u, v) = (self.lengths[k], self.lengths[self.after(k)]);
+            let radius_squared = self.circumradius(k).powi(2);
+            // Two triangles, as for the centroid; on each the integral is the area times (u^2 / 2 + R^2) / 6.
+            let [half_u, half_v] = self.wedges[k].halves(u, v);
+            let of = |length: f64, half: f64| 0.25 * length * half * (0.5 * length * length + radius_squared) / 6.0;
+            of(u, half_u) + of(v, half_v)
+        };
+        (0..self.n_spokes()).map(of_wedge).sum()
+    }
+
     /// The area of the Voronoi cell; leaves the lengths of its edges in `sides`.
     pub fn measure_cell(&mut self) -> f64 {
         let Self { lengths, wedges, sides, .. } = self;
@@ -194,6 +207,7 @@ mod tests {
             assert!((star.circumradius(k) - 1.0 / 3f64.sqrt()).abs() < 1e-14);
             assert!(star.centre(k).iter().all(|part| (part - 1.0 / 3.0).abs() < 1e-14));
             assert!((star.sides[k] - 1.0 / 3f64.sqrt()).abs() < 1e-14);
+            assert!((star.second_moment() - 5.0 / (24.0 * 3f64.sqrt())).abs() < 1e-14);
             assert!(star.is_covered(k, 0.578) && !star.is_covered(k, 0.577));
         }
     }

@@ -1,7 +1,9 @@
 //! The methods, one file each; what serves one method alone stands in a folder of its name.
 
 mod capacity;
+mod cvt;
 mod distmesh;
+mod farthest_point;
 mod lloyd;
 mod opt_beta;
 mod prepare;
@@ -11,7 +13,9 @@ mod relax;
 mod well_spaced;
 
 pub use capacity::{CapacityParams, capacity};
+pub use cvt::{CvtParams, cvt};
 pub use distmesh::{DistMeshParams, distmesh};
+pub use farthest_point::{FarthestPointParams, farthest_point};
 pub use lloyd::{LloydParams, lloyd};
 pub use opt_beta::{OptBetaParams, opt_beta};
 pub use procrustes::{Mode, ProcrustesParams, procrustes};

@@ -100,7 +100,7 @@ impl WellSpacedParams {
 /// # Errors
 /// [`Error::InvalidParameter`] for a ratio outside [0.578, 2].
 pub(super) fn validate_beta(beta: f64) -> Result<(), Error> {
-    if !(beta >= 0.578 && beta <= 2.0) {
+    if !(0.578..=2.0).contains(&beta) {
         return Err(Error::InvalidParameter { name: "beta", value: beta.to_string(), expected: "0.578 or more, and 2 at most" });
     }
     Ok(())

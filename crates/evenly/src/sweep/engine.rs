@@ -80,8 +80,6 @@ struct Best {
     places: Vec<DVec2>,
 }
 
-/// Points that are looked at in one go.
-const CHUNK: usize = 1 << 12;
 /// A state is kept as the best if it has less than this share of what is wrong with the one that is kept: copies cost time.
 const BETTER: f64 = 0.9;
 /// A sweep is stuck that has found nothing better in this many passes, and in as many as it took to the best.
@@ -229,23 +227,9 @@ impl Sweep {
         (self.mesh.into_order(), self.best.places)
     }
 
-    /// The smallest distance of two points and the largest circumradius, in spacings, in the state reached.
+    /// As [`LiveMesh::distance_and_radius`].
     pub fn distance_and_radius(&mut self) -> [f64; 2] {
-        self.mesh.legalize();
-        let (mesh, all) = (&self.mesh, (0..self.mesh.n_points() as u32).collect::<Vec<u32>>());
-        let seen = all.par_chunks(CHUNK).map_init(StarBuffer::default, |buffer, chunk| {
-            let mut seen = [f64::INFINITY, 0.0];
-            for &v in chunk {
-                // With everything free, nothing lies outside.
-                let _ = mesh.read(v, Territory::EVERYTHING, buffer);
-                let star = &buffer.star;
-                let neighbours = star.lengths.iter().zip(&star.is_mirror).filter(|(_, is_mirror)| !**is_mirror);
-                seen[0] = neighbours.map(|(&length, _)| length).fold(seen[0], f64::min);
-                seen[1] = (0..star.n_spokes()).map(|k| star.circumradius(k)).fold(seen[1], f64::max);
-            }
-            seen
-        });
-        seen.reduce(|| [f64::INFINITY, 0.0], |a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        self.mesh.distance_and_radius()
     }
 
     /// The places of the points, as the mesh has them.

@@ -145,7 +145,7 @@ impl LiveMesh {
         }
         let [p, q, r, s] = self.mesh.quadrilateral(h);
         let from = self.mesh.position(p);
-        let [q, r, s] = [q, r, s].map(|v| self.spoke(from, v));
+        let [q, r, s] = [self.spoke(from, q), self.spoke(from, r), self.spoke(from, s)];
         if !is_in_circle(q, r, s) {
             return false;
         }

@@ -14,6 +14,7 @@ mod shared;
 mod spoke;
 mod stars;
 mod torus;
+mod transplant;
 mod walls;
 
 pub(crate) use chunks::Chunks;
@@ -26,3 +27,4 @@ pub(crate) use shared::Territory;
 pub(crate) use spoke::MIRROR;
 pub(crate) use stars::StarBuffer;
 pub(crate) use torus::cover;
+pub(crate) use transplant::Transplant;

@@ -104,6 +104,19 @@ impl SharedMesh {
         self.turns[next(h) as usize].store(pair(origin, twin), Relaxed);
     }
 
+    /// Makes a triangle of three edges, each given by its origin and the half-edge across.
+    pub fn make_triangle(&self, t: u32, rims: [(u32, u32); 3]) {
+        for (h, (origin, twin)) in (3 * t..).zip(rims) {
+            self.set(h, origin, twin);
+            self.vertices[origin as usize].outgoing.store(h, Relaxed);
+        }
+        for (h, (_, across)) in (3 * t..).zip(rims) {
+            if across != BORDER {
+                self.set(across, self.origin(across), h);
+            }
+        }
+    }
+
     /// A half-edge that leaves `v`.
     #[inline]
     pub fn outgoing(&self, v: u32) -> u32 {

@@ -4,6 +4,7 @@
 //! neighbour. What it shows is certain once [`LiveMesh::legalize`] finds nothing to flip in all of the mesh.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::half_edges::next;
 use super::live::{LiveMesh, Outside};
@@ -12,6 +13,8 @@ use super::spoke::Spoke;
 use super::walls::WallCell;
 use crate::star::{Star, Wall, Wedge};
 
+/// The fewest points that a thread looks at in one go.
+const CHUNK: usize = 1 << 12;
 /// Where the sum of two cotangents is less than this much of its terms, exact arithmetic decides on its sign.
 const DOUBT: f64 = 1e-9;
 
@@ -38,6 +41,37 @@ impl LiveMesh {
         self.restore(v, territory, &mut buffer.spokes, &mut buffer.n_flips)?;
         self.fill(v, buffer);
         Ok(())
+    }
+
+    /// Looks at the stars of all points, in order.
+    pub fn look<T: Send>(&mut self, look: impl Fn(&mut Star, &[Spoke]) -> T + Sync) -> Vec<T> {
+        self.legalize();
+        let (mesh, all) = (&*self, (0..self.n_points() as u32).collect::<Vec<u32>>());
+        let seen = all.par_iter().with_min_len(CHUNK).map_init(StarBuffer::default, |buffer, &v| {
+            // With everything free, nothing lies outside.
+            let _ = mesh.read(v, Territory::EVERYTHING, buffer);
+            look(&mut buffer.star, &buffer.spokes)
+        });
+        seen.collect()
+    }
+
+    /// The smallest distance of two points and the largest circumradius, in spacings.
+    pub fn distance_and_radius(&mut self) -> [f64; 2] {
+        let seen = self.look(|star, _| {
+            let neighbours = star.lengths.iter().zip(&star.is_mirror).filter(|(_, is_mirror)| !**is_mirror);
+            let nearest = neighbours.map(|(&length, _)| length).fold(f64::INFINITY, f64::min);
+            [nearest, (0..star.n_spokes()).map(|k| star.circumradius(k)).fold(0.0, f64::max)]
+        });
+        seen.into_iter().fold([f64::INFINITY, 0.0], |a, b| [a[0].min(b[0]), a[1].max(b[1])])
+    }
+
+    /// Moves all points, each by its own vector or as far as it gets.
+    pub fn move_all(&mut self, by: &[DVec2]) {
+        let mut buffer = StarBuffer::default();
+        for (point, &by) in (0..).zip(by) {
+            // With everything free, nothing lies outside.
+            let _ = self.relocate(point, by, Territory::EVERYTHING, &mut buffer);
+        }
     }
 
     /// Lays out the star of `v`, which has just been read, and the stars of its neighbours.

@@ -1,0 +1,134 @@
+//! Farthest-point optimization: each point in turn is taken out, and put in where it is farthest from all others.
+//!
+//! Schloemer, Heck and Deussen, "Farthest-Point Optimized Point Sets with Maximized Minimum Distance", High Performance Graphics 2011, doi
+//! 10.1145/2018323.2018345. With `is_local` a point only looks at the gap that it leaves itself, as in the paper's section 4.3 and in the
+//! comparison of Ebeida et al. (2014).
+//!
+//! What differs from the paper, and why: the gaps' sizes play a tournament, in which the largest is known after each change in a few steps. In a rectangle
+//! places on the walls and in the corners are gaps like others.
+//!
+//! Cost: O(n log n) an iteration, on one thread. The smallest distance never falls; it does not promise to reach any. Coverage is left alone.
+
+mod gaps;
+mod tournament;
+
+use serde::Serialize;
+
+use self::gaps::Gaps;
+use super::prepare::{Prepared, keep_distinct, prepare};
+use super::push_pull::UnmetTarget;
+use super::relax::Passes;
+use crate::error::Error;
+use crate::measure::Measures;
+use crate::points::PointSet;
+use crate::run::{Outcome, Phase, Progress, Report, RunContext};
+use crate::triangulation::LiveMesh;
+
+/// What [`farthest_point`] can be told.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FarthestPointParams {
+    /// Stops where no two points are nearer than this many hexagonal spacings, in (0, 1]; `None` for no such target. 0.925 is known to be reached.
+    pub min_distance: Option<f64>,
+    /// Whether a point only looks at the gap that it leaves itself: faster, and stops at smaller distances.
+    pub is_local: bool,
+    /// How far a point goes that stays in its own gap: 1 is the middle, the paper's; up to 1.9 gets to rest many times as fast, and makes points a little
+    /// more regular. In [1, 2).
+    pub relaxation: f64,
+    /// Stops after so many iterations, in each of which every point moves once.
+    pub iterations: usize,
+}
+
+impl Default for FarthestPointParams {
+    fn default() -> Self {
+        Self { min_distance: Some(0.9), is_local: false, relaxation: 1.8, iterations: 500 }
+    }
+}
+
+/// Points that move no farther than this part of the spacing are at rest.
+const STILL: f64 = 1e-6;
+
+impl FarthestPointParams {
+    /// Checks the parameters, as [`farthest_point`] does before it begins.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] for a distance outside (0, 1], or no iterations.
+    pub fn validate(&self) -> Result<(), Error> {
+        if let Some(distance) = self.min_distance.filter(|&distance| !(distance > 0.0 && distance <= 1.0)) {
+            return Err(Error::InvalidParameter { name: "min_distance", value: distance.to_string(), expected: "positive, and 1 at most" });
+        }
+        if !(1.0..2.0).contains(&self.relaxation) {
+            return Err(Error::InvalidParameter {
+                name: "relaxation",
+                value: self.relaxation.to_string(),
+                expected: "1 or more, and less than 2",
+            });
+        }
+        Passes { n_passes: self.iterations, seed: 0 }.validate()
+    }
+
+    /// The target, if points with these measures do not reach it, by more than a millionth.
+    pub fn unmet(&self, measures: &Measures) -> Option<UnmetTarget> {
+        let wanted = self.min_distance.filter(|&wanted| measures.min_distance < wanted - 1e-6)?;
+        Some(UnmetTarget { name: "min_distance", wanted, measured: measures.min_distance })
+    }
+
+    /// By how much these measures miss the target, relative to it; 0 where it is met.
+    pub fn worst_miss(&self, measures: &Measures) -> f64 {
+        self.min_distance.map_or(0.0, |wanted| (1.0 - measures.min_distance / wanted).max(0.0))
+    }
+}
+
+/// Optimises `points` in place; their number and order stay.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] as [`FarthestPointParams::validate`] has it; [`Error::TooFine`] where f64 cannot tell the points apart;
+/// [`Error::Degenerate`] where they cannot be triangulated. The points are untouched then.
+///
+/// # Example
+/// ```
+/// use evenly::{FarthestPointParams, RunContext, Torus, farthest_point, measure, white};
+///
+/// let mut points = white(Torus::new([0.0, 0.0], [1.0, 1.0])?, 500, 7)?;
+/// farthest_point(&mut points, &FarthestPointParams::default(), &mut RunContext::default())?;
+/// assert!(measure(&points)?.min_distance >= 0.9);
+/// # Ok::<(), evenly::Error>(())
+/// ```
+pub fn farthest_point(points: &mut PointSet, params: &FarthestPointParams, run: &mut RunContext) -> Result<Report, Error> {
+    params.validate()?;
+    let mut report = Report::new("farthest-point", points.n_points());
+    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, &mut report, run)? else { return Ok(report) };
+    let n_points = positions.len() as u32;
+    run.enter(Phase::Triangulate);
+    let mut gaps = Gaps::new(LiveMesh::new(&domain, positions, order, spacing)?);
+    report.triangulations = 1;
+    run.enter(Phase::Optimize);
+
+    let is_met = |gaps: &mut Gaps| params.min_distance.is_some_and(|wanted| gaps.mesh.distance_and_radius()[0] >= wanted);
+    report.outcome = loop {
+        if is_met(&mut gaps) {
+            break Outcome::Converged;
+        }
+        if report.iterations == params.iterations {
+            break if params.min_distance.is_some() { Outcome::IterationLimit } else { Outcome::IterationsDone };
+        }
+        if run.is_cancelled() {
+            break Outcome::Cancelled;
+        }
+        let mut farthest = 0.0f64;
+        for point in 0..n_points {
+            farthest = farthest.max(gaps.move_to_farthest(point, params.is_local, params.relaxation)?);
+        }
+        report.iterations += 1;
+        report.visits += n_points as usize;
+        let fraction = report.iterations as f64 / params.iterations as f64;
+        run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share: None, fraction });
+        if farthest <= STILL * spacing && !is_met(&mut gaps) {
+            break if params.min_distance.is_some() { Outcome::IterationLimit } else { Outcome::Converged };
+        }
+    };
+    let places = gaps.mesh.points();
+    points.place(&domain, &gaps.mesh.into_order(), &places);
+    keep_distinct(points);
+    report.note_limit();
+    Ok(report)
+}
