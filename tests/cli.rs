@@ -354,6 +354,14 @@ fn bad_input_gets_one_line_and_no_file() {
         ("optimize good.txt -o o.txt --method warp --no-warp", "--no-warp is for"),
         ("generate -n 10 -o o.txt --method white --start jittered", "--start is for"),
         ("generate -n 10 -o o.txt --nonsense", "--nonsense"),
+        ("compare", "--n-points is missing"),
+        ("compare -n 2", "takes 3 or more"),
+        ("compare good.txt -n 20", "cannot be used with"),
+        ("compare -n 10 --methods warp", "warp"),
+        ("compare -n 10 --methods lloyd,cvt --beta 0.7", "--beta is for --method well-spaced or opt-beta"),
+        ("compare -n 10 --runs 0", "'0'"),
+        ("compare -n 10 -o o.txt", "o.txt: unknown ending; use one of .md .csv .json .html"),
+        ("compare missing.txt", "missing.txt: No such file"),
         ("generate -n 10 -o good.txt", "good.txt exists already; pass --force"),
         ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .svg .png"),
         ("generate -n 10 -o o", "o: no ending"),
@@ -388,6 +396,33 @@ fn a_maximal_set_has_as_many_points_as_it_has_and_says_so() {
     // As a start, the number is exact again.
     shell.ok("generate -n 777 --method well-spaced --start poisson-disk -o c.txt");
     assert_eq!(shell.read("c.txt").lines().filter(|line| !line.starts_with('#')).count(), 777);
+}
+
+#[test]
+fn methods_stand_side_by_side_in_every_kind_of_table() {
+    let shell = Shell::new();
+    let text = shell.ok("compare -n 200 --methods white,lloyd,well-spaced --runs 2 --beta 0.8");
+    let heads: Vec<&str> = text.lines().nth(2).unwrap().split_whitespace().collect();
+    assert_eq!(heads, ["white", "lloyd", "well-spaced"]);
+    for name in ["min_distance", "beta", "cvt_energy", "valence_6_fraction", "seconds", "iterations", "reached_fraction"] {
+        assert!(text.lines().any(|line| line.starts_with(name)), "{name}: {text}");
+    }
+    shell.ok("compare -n 200 --methods lloyd,dart --runs 3 -o t.json");
+    let json: Value = serde_json::from_str(&shell.read("t.json")).unwrap();
+    assert_eq!(json["methods"][1]["method"], "dart");
+    assert_eq!(json["methods"][0]["runs"].as_array().unwrap().len(), 3);
+    assert_eq!(json["methods"][0]["runs"][2]["measures"]["n_points"], 200);
+    shell.ok("compare -n 200 --methods lloyd,dart --runs 3 -o t.csv");
+    assert_eq!(shell.read("t.csv").lines().count(), 7);
+    shell.ok("compare -n 200 --methods lloyd,dart --runs 1 -o t.md");
+    assert!(shell.read("t.md").contains("| | lloyd | dart |"));
+    shell.ok("compare -n 2000 --methods lloyd,dart --runs 1 -o t.html");
+    assert_eq!(shell.read("t.html").matches("<svg").count(), 2);
+    // All begin with the points that are given: without chance of its own a method gives the same each time.
+    shell.ok("generate -n 100 --method white -o in.txt");
+    shell.ok("compare in.txt --methods cvt --runs 2 -o given.json");
+    let json: Value = serde_json::from_str(&shell.read("given.json")).unwrap();
+    assert_eq!(json["methods"][0]["runs"][0]["measures"], json["methods"][0]["runs"][1]["measures"]);
 }
 
 #[test]

@@ -16,6 +16,7 @@ Examples:
   evenly generate -n 10000 --method push-pull --min-distance 0.85 --coverage-radius 0.67 -o points.csv
   evenly optimize points.csv --size 640,480 -o better.csv
   evenly analyze better.csv --size 640,480 --json
+  evenly compare -n 1000 --methods lloyd,well-spaced,push-pull -o table.html
 
 Exit codes: 0 done; 1 done, but not converged or a target not reached; 2 bad usage or input, or no output; 130 interrupted, state reached written";
 
@@ -35,6 +36,8 @@ pub enum Command {
     Optimize(Optimize),
     /// Measure points: the proof
     Analyze(Analyze),
+    /// Run several methods on the same points, and lay their measures side by side
+    Compare(Compare),
     /// Print a completion script for a shell
     Completions {
         /// The shell
@@ -113,6 +116,44 @@ pub struct Analyze {
 }
 
 #[derive(Args)]
+#[command(after_help = "Example:\n  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html")]
+pub struct Compare {
+    /// Points that all begin with, as .txt, .csv or .npy; - is stdin [default: new ones for each run, from --start]
+    pub input: Option<PathBuf>,
+    /// How many points, without an input
+    #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "input")]
+    pub n_points: Option<usize>,
+    /// What is compared, optimisers and starts [default: all]
+    #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = parser(|method| method != Method::Warp), hide_possible_values = true)]
+    pub methods: Vec<Method>,
+    /// How often, each time with the next seed
+    #[arg(long, value_name = "K", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
+    pub runs: u16,
+    /// What all optimisers start from, without an input
+    #[arg(long, default_value = "white", value_parser = parser(Method::is_start), hide_possible_values = true)]
+    pub start: Method,
+    /// The first run's seed
+    #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
+    pub seed: u64,
+    #[command(flatten)]
+    pub space: SpaceArgs,
+    #[command(flatten)]
+    pub optimizer: OptimizerArgs,
+    /// Where the table goes: .md .csv (a line a run) .json (all of it) .html (with pictures) [default: stdout, as plain text]
+    #[arg(short, long, value_name = "OUT", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+    /// Overwrite existing files
+    #[arg(long, help_heading = "Output")]
+    pub force: bool,
+    /// Threads; the result does not depend on them [default: all]
+    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Output")]
+    pub threads: Option<u16>,
+    /// Say nothing but errors
+    #[arg(short, long, help_heading = "Output")]
+    pub quiet: bool,
+}
+
+#[derive(Args)]
 pub struct SpaceArgs {
     /// The domain: torus (periodic, its sets tile the plane) or rect (bounded)
     #[arg(long, value_enum, default_value = "torus")]
@@ -180,7 +221,7 @@ pub enum DrawArg {
 
 /// The whole command, with what the table of methods adds to the help.
 pub fn command() -> Clap {
-    Cli::command().mut_subcommand("generate", with_methods).mut_subcommand("optimize", with_methods)
+    Cli::command().mut_subcommand("generate", with_methods).mut_subcommand("optimize", with_methods).mut_subcommand("compare", with_methods)
 }
 
 impl From<DrawArg> for Draw {

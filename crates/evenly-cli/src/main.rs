@@ -5,12 +5,16 @@
 
 mod args;
 mod commands;
+mod comparison;
 mod input;
+mod interrupt;
 mod method;
 mod method_args;
 mod optimizer;
+mod page;
 mod record;
 mod session;
+mod table;
 mod talk;
 
 use std::process::ExitCode;
@@ -35,6 +39,7 @@ fn main() -> ExitCode {
         Command::Generate(args) => commands::generate::run(args, flags),
         Command::Optimize(args) => commands::optimize::run(args, flags),
         Command::Analyze(args) => commands::analyze::run(args),
+        Command::Compare(args) => commands::compare::run(args, flags),
         Command::Completions { shell } => commands::shell::completions(*shell),
         Command::Man => commands::shell::man(),
     };

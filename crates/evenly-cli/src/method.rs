@@ -92,13 +92,19 @@ impl Method {
         if self == OptBeta { PoissonDisk } else { White }
     }
 
-    /// Refuses flags of other methods.
-    pub fn refuse_others_flags(self, matches: &ArgMatches) -> anyhow::Result<()> {
-        let is_given = |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
-        match FLAGS.iter().find(|(id, methods)| is_given(id) && !methods.contains(&self)) {
-            Some((id, methods)) => bail!("--{} is for --method {}", id.replace('_', "-"), names(methods)),
-            None => Ok(()),
-        }
+    /// Optimisers, then starts.
+    pub fn all_but_warp() -> Vec<Self> {
+        Self::value_variants().iter().copied().filter(|&method| method != Self::Warp).collect()
+    }
+}
+
+/// Refuses flags that none of these methods takes.
+pub fn refuse_others_flags(methods: &[Method], matches: &ArgMatches) -> anyhow::Result<()> {
+    let is_given = |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
+    let is_taken = |takers: &[Method]| methods.iter().any(|method| takers.contains(method));
+    match FLAGS.iter().find(|(id, takers)| is_given(id) && !is_taken(takers)) {
+        Some((id, takers)) => bail!("--{} is for --method {}", id.replace('_', "-"), names(takers)),
+        None => Ok(()),
     }
 }
 

@@ -10,15 +10,12 @@ use evenly_io::{Draw, Target, write_points};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::RunArgs;
+use crate::interrupt;
 use crate::method::Method;
 use crate::optimizer::Optimizer;
 use crate::record::{self, Record};
 use crate::talk::say;
 
-/// Interrupted; the state reached is written.
-const INTERRUPTED: u8 = 130;
-/// Two signals within this time are one.
-const AT_ONCE: Duration = Duration::from_millis(500);
 /// Done, but what was asked for was not reached.
 const NOT_REACHED: u8 = 1;
 
@@ -110,7 +107,7 @@ impl<'a> Session<'a> {
         if let Some(advice) = optimizer.advice(points.space()) {
             self.note(advice);
         }
-        self.catch_interrupt()?;
+        interrupt::cancels(&self.cancel, self.args.quiet)?;
         let bar = self.bar();
         let mut clock = PhaseClock::default();
         let cancel = self.cancel.clone();
@@ -149,26 +146,6 @@ impl<'a> Session<'a> {
     fn is_nearer(&mut self, first: &PointSet, second: &PointSet, optimizer: &dyn Optimizer) -> bool {
         let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| optimizer.worst_miss(&measures));
         self.time("measure", || miss(first) < miss(second))
-    }
-
-    /// From here on Ctrl-C ends the run after the iteration at hand; before, there is nothing to keep.
-    fn catch_interrupt(&self) -> anyhow::Result<()> {
-        let (cancel, is_quiet) = (self.cancel.clone(), self.args.quiet);
-        let mut asked: Option<Instant> = None;
-        let on_interrupt = move || {
-            match asked {
-                // Some programs send the signal twice at once.
-                Some(at) if at.elapsed() < AT_ONCE => return,
-                // Asked twice: at once, and nothing is written.
-                Some(_) => std::process::exit(i32::from(INTERRUPTED)),
-                None => asked = Some(Instant::now()),
-            }
-            cancel.cancel();
-            if !is_quiet {
-                say("interrupted: writing the state reached; once more to stop at once");
-            }
-        };
-        ctrlc::set_handler(on_interrupt).context("no handler for Ctrl-C")
     }
 
     /// Measures the points, writes them and the record, and says how it went.
@@ -214,7 +191,7 @@ impl<'a> Session<'a> {
             Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
         }
         Ok(match outcome {
-            _ if self.cancel.is_cancelled() => ExitCode::from(INTERRUPTED),
+            _ if self.cancel.is_cancelled() => ExitCode::from(interrupt::CODE),
             _ if has_missed => ExitCode::from(NOT_REACHED),
             Some(Outcome::IterationLimit | Outcome::LostToRounding) if is_unproved => ExitCode::from(NOT_REACHED),
             _ => ExitCode::SUCCESS,

@@ -6,12 +6,12 @@ use anyhow::Context as _;
 use clap::ArgMatches;
 
 use crate::args::Generate;
-use crate::method::Method;
+use crate::method::{Method, refuse_others_flags};
 use crate::method_args::start;
 use crate::session::Session;
 
 pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
-    args.method.refuse_others_flags(flags)?;
+    refuse_others_flags(&[args.method], flags)?;
     let space = args.space.space()?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, Some(args.seed))?;

@@ -7,10 +7,11 @@ use evenly::warp;
 
 use crate::args::Optimize;
 use crate::input;
+use crate::method::refuse_others_flags;
 use crate::session::Session;
 
 pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
-    args.method.refuse_others_flags(flags)?;
+    refuse_others_flags(&[args.method], flags)?;
     let space = args.space.space()?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, None)?;

@@ -1,0 +1,141 @@
+//! `evenly compare`: several methods on the same points.
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use anyhow::{Context as _, bail};
+use clap::ArgMatches;
+use evenly::{CancelToken, Outcome, PointSet, PoissonDiskParams, RunContext, Space, measure, poisson_disk};
+use evenly_io::{Draw, Target, figure};
+use indicatif::ProgressBar;
+
+use crate::args::Compare;
+use crate::comparison::{Column, Comparison, Run};
+use crate::method::{Method, refuse_others_flags};
+use crate::method_args::start;
+use crate::table::Kind;
+use crate::talk::say;
+use crate::{input, interrupt, record, session};
+
+pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
+    let methods = if args.methods.is_empty() { Method::all_but_warp() } else { args.methods.clone() };
+    refuse_others_flags(&methods, flags)?;
+    let space = args.space.space()?;
+    let output = match &args.output {
+        Some(path) => Some((Kind::of_path(path)?, Target::any(path, args.force)?)),
+        None => None,
+    };
+    let given = match &args.input {
+        Some(path) => Some(input::read(path, space)?),
+        None => None,
+    };
+    if let Some((_, Some(note))) = &given {
+        say(format_args!("note: {note}"));
+    }
+    let given = given.map(|(points, _)| points);
+    let n_points = match (&given, args.n_points) {
+        (Some(points), _) => points.n_points(),
+        (None, Some(n)) => n,
+        (None, None) => bail!("--n-points is missing: how many?"),
+    };
+    if n_points < 3 {
+        bail!("{n_points} points: to compare methods takes 3 or more");
+    }
+
+    let cancel = CancelToken::default();
+    interrupt::cancels(&cancel, args.quiet)?;
+    let runner = Runner { args, space, n_points, given, cancel };
+    let pool = session::pool(args.threads)?;
+    let is_drawn = matches!(output, Some((Kind::Html, _)));
+    let comparison = pool.install(|| runner.compare(&methods, is_drawn))?;
+    let text = |kind: Kind| kind.write(&comparison);
+    match &output {
+        Some((kind, target)) => target.write(text(*kind)?.as_bytes())?,
+        None => Target::any("-".as_ref(), false)?.write(text(Kind::Text)?.as_bytes())?,
+    }
+    Ok(if runner.cancel.is_cancelled() { ExitCode::from(interrupt::CODE) } else { ExitCode::SUCCESS })
+}
+
+struct Runner<'a> {
+    args: &'a Compare,
+    space: Space,
+    n_points: usize,
+    given: Option<PointSet>,
+    cancel: CancelToken,
+}
+
+impl Runner<'_> {
+    fn compare(&self, methods: &[Method], is_drawn: bool) -> anyhow::Result<Comparison> {
+        let bar =
+            if self.args.quiet { ProgressBar::hidden() } else { ProgressBar::new((methods.len() * usize::from(self.args.runs)) as u64) };
+        let mut columns = Vec::new();
+        for &method in methods {
+            let mut column = Column { method: method.name(), runs: Vec::new(), picture: None };
+            for index in 0..self.args.runs {
+                bar.set_message(method.name());
+                let seed = self.args.seed.wrapping_add(index.into());
+                let Some((run, points)) = self.run(method, seed)? else { break };
+                if is_drawn && index == 0 {
+                    column.picture = Some(figure(&excerpt(&points)?, &[Draw::Points], &record::recipe(Some(seed)))?);
+                }
+                column.runs.push(run);
+                bar.inc(1);
+            }
+            if !column.runs.is_empty() {
+                columns.push(column);
+            }
+        }
+        bar.finish_and_clear();
+        let start = if self.given.is_some() { None } else { Some(self.args.start.name()) };
+        Ok(Comparison { version: record::VERSION, command: record::command(), space: self.space, n_points: self.n_points, start, columns })
+    }
+
+    /// One run of a method; `None` if it was interrupted.
+    fn run(&self, method: Method, seed: u64) -> anyhow::Result<Option<(Run, PointSet)>> {
+        let optimizer = self.args.optimizer.optimizer(method, seed)?;
+        let mut points = match (&optimizer, &self.given) {
+            (Some(_), Some(given)) => given.clone(),
+            (Some(_), None) => start(self.args.start, self.space, self.n_points, seed)?,
+            (None, _) => PointSet::new(self.space, Vec::new())?,
+        };
+        if self.cancel.is_cancelled() {
+            return Ok(None);
+        }
+        let begin = Instant::now();
+        let mut report = None;
+        match &optimizer {
+            Some(optimizer) => {
+                // Of the starts, only white noise has long density waves.
+                let is_warped = !self.args.optimizer.no_warp && (self.given.is_some() || self.args.start == Method::White);
+                if let Some(warp) = optimizer.warp().filter(|_| is_warped) {
+                    warp(&mut points);
+                }
+                report = Some(optimizer.run(&mut points, &mut RunContext::default().with_cancel(self.cancel.clone()))?);
+            }
+            // As an outcome its number is chance; as a start it would not be maximal.
+            None if method == Method::PoissonDisk => {
+                let params = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&self.space, self.n_points) };
+                points = poisson_disk(self.space, &params)?;
+            }
+            None => points = start(method, self.space, self.n_points, seed)?,
+        }
+        let seconds = begin.elapsed().as_secs_f64();
+        if report.as_ref().is_some_and(|report| report.outcome == Outcome::Cancelled) {
+            return Ok(None);
+        }
+        let measures = measure(&points).with_context(|| method.name())?;
+        let is_reached = optimizer.filter(|optimizer| optimizer.has_targets()).map(|optimizer| optimizer.unmet(&measures).is_empty());
+        let iterations = report.map(|report| report.iterations);
+        Ok(Some((Run { seed, seconds, iterations, is_reached, measures }, points)))
+    }
+}
+
+/// Of many points those of a corner: a small picture shows no more.
+fn excerpt(points: &PointSet) -> anyhow::Result<PointSet> {
+    const MOST: f64 = 600.0;
+    let share = (MOST / points.n_points() as f64).min(1.0).sqrt();
+    let ([x, y], [width, height]) = (points.space().origin(), points.space().size().map(|side| share * side));
+    let corner = evenly::Rectangle::new([x, y], [width, height])?;
+    let positions = points.positions().iter().copied().filter(|p| p[0] <= x + width && p[1] <= y + height).collect();
+    Ok(PointSet::new(corner, positions)?)
+}
