@@ -34,7 +34,7 @@ impl Method {
         let plain = ProcrustesParams { mode: Mode::Paper, ..params };
         let easy = PushPullParams { max_passes: Some(300), ..PushPullParams::preset(PushPullPreset::Fast) };
         let summed = PushPullParams { schedule: Schedule::Summed, relaxation: 0.5, ..easy };
-        let spaced = WellSpacedParams { beta: 0.9, max_passes: Some(300), ..WellSpacedParams::default() };
+        let spaced = WellSpacedParams { beta: 0.9, ..WellSpacedParams::default() };
         vec![
             Self::Procrustes(params),
             Self::Procrustes(plain),

@@ -5,14 +5,23 @@ use evenly::{
     ProcrustesParams, PushPullParams, Report, RunContext, Space, UnmetTarget, WellSpacedParams, capacity, cvt, distmesh, farthest_point,
     lloyd, opt_beta, procrustes, push_pull, warp, warp_isotropic, well_spaced,
 };
+use serde::Serialize;
 use serde_json::Value;
 
-/// A method with its parameters.
-pub trait Optimizer: Send + Sync {
-    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error>;
-
-    /// As the record shows them.
+/// What the record shows of a method's parameters.
+pub trait Parameters {
     fn parameters(&self) -> Value;
+}
+
+impl<T: Serialize> Parameters for T {
+    fn parameters(&self) -> Value {
+        serde_json::json!(self)
+    }
+}
+
+/// A method with its parameters.
+pub trait Optimizer: Parameters + Send + Sync {
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error>;
 
     /// What its own chance depends on.
     fn seed(&self) -> Option<u64> {
@@ -50,10 +59,6 @@ impl Optimizer for ProcrustesParams {
         procrustes(points, self, run)
     }
 
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
-    }
-
     fn warp(&self) -> Option<fn(&mut PointSet)> {
         Some(warp)
     }
@@ -62,10 +67,6 @@ impl Optimizer for ProcrustesParams {
 impl Optimizer for PushPullParams {
     fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
         push_pull(points, self, run)
-    }
-
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
     }
 
     fn seed(&self) -> Option<u64> {
@@ -98,10 +99,6 @@ impl Optimizer for WellSpacedParams {
         well_spaced(points, self, run)
     }
 
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
-    }
-
     fn seed(&self) -> Option<u64> {
         Some(self.seed)
     }
@@ -132,10 +129,6 @@ impl Optimizer for OptBetaParams {
         opt_beta(points, self, run)
     }
 
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
-    }
-
     fn has_targets(&self) -> bool {
         true
     }
@@ -154,10 +147,6 @@ impl Optimizer for LloydParams {
         lloyd(points, self, run)
     }
 
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
-    }
-
     fn seed(&self) -> Option<u64> {
         Some(self.seed)
     }
@@ -168,10 +157,6 @@ impl Optimizer for DistMeshParams {
         distmesh(points, self, run)
     }
 
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
-    }
-
     fn seed(&self) -> Option<u64> {
         Some(self.seed)
     }
@@ -180,10 +165,6 @@ impl Optimizer for DistMeshParams {
 impl Optimizer for CapacityParams {
     fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
         capacity(points, self, run)
-    }
-
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
     }
 
     fn seed(&self) -> Option<u64> {
@@ -208,10 +189,6 @@ impl Optimizer for FarthestPointParams {
         farthest_point(points, self, run)
     }
 
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
-    }
-
     fn has_targets(&self) -> bool {
         self.min_distance.is_some()
     }
@@ -228,9 +205,5 @@ impl Optimizer for FarthestPointParams {
 impl Optimizer for CvtParams {
     fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
         cvt(points, self, run)
-    }
-
-    fn parameters(&self) -> Value {
-        serde_json::json!(self)
     }
 }

@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::comparison::Comparison;
-use crate::table::shown;
+use crate::comparison::{Comparison, shown};
 
 const STYLE: &str = "\
 body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 90rem; padding: 0 1rem; color: #222; background: #fff }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::bail;
 
-use crate::comparison::{Comparison, Spread};
+use crate::comparison::{Comparison, shown};
 use crate::page::page;
 
 /// A kind of table.
@@ -41,26 +41,6 @@ impl Kind {
             Self::Html => page(comparison),
         })
     }
-}
-
-/// A measure for people: four digits, and as many decimals of its deviation, if they show any.
-pub fn shown(spread: Option<Spread>) -> String {
-    let Some(Spread { mean, sd }) = spread else { return "-".into() };
-    let size = mean.abs();
-    if mean.is_nan() {
-        return "-".into();
-    }
-    if mean.is_infinite() {
-        return "infinite".into();
-    }
-    if size != 0.0 && !(1e-3..1e5).contains(&size) {
-        return if sd > 1e-3 * size { format!("{mean:.2e} \u{b1}{sd:.0e}") } else { format!("{mean:.2e}") };
-    }
-    let is_whole = sd == 0.0 && mean.fract() == 0.0;
-    let digits = if is_whole { 0 } else { 4usize.saturating_sub(size.max(1.0).log10() as usize) };
-    let (mean, sd) = (format!("{mean:.digits$}"), format!("{sd:.digits$}"));
-    let is_steady = sd.chars().all(|digit| matches!(digit, '0' | '.')) || sd == "NaN" || sd == "inf";
-    if is_steady { mean } else { format!("{mean} \u{b1}{sd}") }
 }
 
 fn text(comparison: &Comparison) -> String {

@@ -120,7 +120,8 @@ pub struct Report {
     pub visits: usize,
     /// Of a method that sweeps: for each pass the share of points at which it found nothing to do.
     pub stable_share: Vec<f64>,
-    /// The energy before the first iteration and after each, as a fraction of the domain's area; of methods that have one.
+    /// What the method brings down, before the first iteration and after each: of Procrustes its energy, as a fraction of the domain's area, of cvt the energy
+    /// relative to the hexagonal lattice's, of opt-beta beta; of other methods nothing.
     pub energy: Vec<f64>,
     /// How often the energy rose from one iteration to the next, by more than rounding; steps in which a rectangle's triangulation is built anew do not count.
     pub energy_rises: usize,

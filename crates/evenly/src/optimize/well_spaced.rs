@@ -9,7 +9,7 @@
 //! R_f = sqrt(kappa / (sqrt(3) beta)) hexagonal spacings and R_c = beta R_f: with kappa = 1 the hexagonal lattice's own where beta is as small as can
 //! be. They are reached by Push-Pull's moves, which also keep the Voronoi cells' areas alike.
 //!
-//! Cost: O(n) in all; 17 visits a point to 0.75, 40 to 0.70, 100 to 0.68, some 300 to 0.67. It does not promise that any beta can be reached: on a torus 0.67 is known to be.
+//! Cost: O(n) in all; 15 visits a point to 0.75, 40 to 0.70, 110 to 0.68, some 310 to 0.67. It does not promise that any beta can be reached: on a torus 0.67 is known to be.
 
 use serde::Serialize;
 
@@ -24,7 +24,7 @@ use crate::space::Space;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct WellSpacedParams {
     /// The coverage radius over the smallest distance shall be this at most; 0.578 or more, where 0.577 is the hexagonal lattice's. Down to 0.67 is
-    /// known to be reached on a torus, to 0.72 in a rectangle. Less makes points more regular: psi6 is 0.47 at 0.75, 0.54 at 0.70 and 0.61 at 0.67.
+    /// known to be reached on a torus, to 0.72 in a rectangle. Less makes points more regular: psi6 is 0.48 at 0.75, 0.54 at 0.70 and 0.59 at 0.67.
     pub beta: f64,
     /// Stops after this many passes in any case; `None` for a limit that grows with the number of points, 2000 at least.
     pub max_passes: Option<usize>,
@@ -38,16 +38,24 @@ impl Default for WellSpacedParams {
     }
 }
 
-/// The tolerance of areas that takes long density waves out, and forces nothing else.
-const CAPACITY_TOLERANCE: f64 = 0.1;
-/// Below this ratio moves are exaggerated.
-const TOUGH: f64 = 0.72;
-/// The part of each move that is made below [`TOUGH`].
-const RELAXATION: f64 = 1.2;
-/// Below this ratio shorter distances and radii are easier than those of kappa = 1.
-const TOUGHEST: f64 = 0.69;
-/// The kappa below [`TOUGHEST`].
-const KAPPA: f64 = 0.985;
+/// What leads to a ratio, as measured.
+struct Way {
+    /// For ratios from this on.
+    beta: f64,
+    /// Shorter distances and radii are easier where the ratio is tough.
+    kappa: f64,
+    /// Exaggerated moves take fewer passes and, more so, make points more regular.
+    relaxation: f64,
+    /// Takes long density waves out; less makes points more regular.
+    capacity_tolerance: f64,
+}
+
+const WAYS: [Way; 4] = [
+    Way { beta: 0.72, kappa: 0.98, relaxation: 1.1, capacity_tolerance: 0.2 },
+    Way { beta: 0.69, kappa: 1.0, relaxation: 1.2, capacity_tolerance: 0.1 },
+    Way { beta: 0.665, kappa: 0.975, relaxation: 1.12, capacity_tolerance: 0.1 },
+    Way { beta: 0.0, kappa: 0.97, relaxation: 1.15, capacity_tolerance: 0.1 },
+];
 /// The coverage radius of the hexagonal lattice, rounded up.
 const LEAST_RADIUS: f64 = 0.5774;
 /// What is known to be reached, on a torus and in a rectangle.
@@ -82,14 +90,14 @@ impl WellSpacedParams {
 
     /// One distance and one radius for all.
     fn targets(&self) -> PushPullParams {
-        let kappa = if self.beta < TOUGHEST { KAPPA } else { 1.0 };
+        let Way { kappa, relaxation, capacity_tolerance, .. } = *WAYS.iter().find(|way| self.beta >= way.beta).unwrap_or(&WAYS[0]);
         // A generous ratio needs no distance beyond the hexagonal lattice's.
         let distance = (kappa / (3f64.sqrt() * self.beta)).sqrt().min(1.0);
         PushPullParams {
             min_distance: Some(distance),
             coverage_radius: Some((self.beta * distance).max(LEAST_RADIUS)),
-            capacity_tolerance: Some(CAPACITY_TOLERANCE),
-            relaxation: if self.beta < TOUGH { RELAXATION } else { 1.0 },
+            capacity_tolerance: Some(capacity_tolerance),
+            relaxation,
             max_passes: self.max_passes,
             seed: self.seed,
             ..PushPullParams::default()

@@ -11,8 +11,11 @@
 //!
 //! Cost: O(n), some six darts a point. The result is maximal to within 1e-13 of the spacing.
 
+mod cells;
+
 use glam::DVec2;
 
+use self::cells::Cells;
 use super::eliminate::eliminate;
 use super::point_set::PointSet;
 use super::random::Random;
@@ -115,116 +118,6 @@ pub fn poisson_disk_of(space: impl Into<Space>, n_points: usize, seed: u64) -> R
             return eliminate(&points, n_points);
         }
         surplus *= 2;
-    }
-}
-
-/// A grid of cells so small that each holds one point at most; around it, as far as disks reach, on a torus copies, and in a rectangle nothing.
-struct Cells {
-    domain: Domain,
-    side: DVec2,
-    /// Cells of the domain along each axis, and how many more stand on each side.
-    n_own: [usize; 2],
-    margin: [usize; 2],
-    stride: usize,
-    /// The point in each cell, NaN where there is none.
-    points: Vec<DVec2>,
-    /// When a dart is thrown next; infinite where all is covered.
-    clocks: Vec<f32>,
-    /// From a cell to those whose points may be nearer than the larger radius to one of its own.
-    around: Vec<isize>,
-}
-
-impl Cells {
-    fn new(domain: &Domain, spacing: f64, reach: f64) -> Self {
-        let n_own = (domain.size * (std::f64::consts::SQRT_2 / spacing)).ceil().max(DVec2::ONE);
-        let side = domain.size / n_own;
-        let n_own = n_own.to_array().map(|n| n as usize);
-        let margin = (reach / side).ceil().to_array().map(|n| n as usize);
-        // In a rectangle nothing lies further than its far side.
-        let margin = if domain.is_periodic { margin } else { [margin[0].min(n_own[0]), margin[1].min(n_own[1])] };
-        let stride = n_own[0] + 2 * margin[0];
-        let n_cells = stride * (n_own[1] + 2 * margin[1]);
-        let [width, height] = margin.map(|n| n as isize);
-        // The nearest places of two cells that stand so far apart.
-        let gap = |cells: isize, side: f64| (cells.abs() - 1).max(0) as f64 * side;
-        let around = (-height..=height).flat_map(|y| (-width..=width).map(move |x| [x, y]));
-        let around = around.filter(|&[x, y]| [x, y] != [0, 0] && gap(x, side.x).hypot(gap(y, side.y)) < reach);
-        // The nearest first: their disks cover most.
-        let mut around: Vec<[isize; 2]> = around.collect();
-        around.sort_by_key(|[x, y]| x * x + y * y);
-        let around = around.into_iter().map(|[x, y]| x + y * stride as isize).collect();
-        let (points, clocks) = (vec![DVec2::NAN; n_cells], vec![f32::INFINITY; n_cells]);
-        Self { domain: *domain, side, n_own, margin, stride, points, clocks, around }
-    }
-
-    /// The cells of the domain, row by row.
-    fn own(&self) -> impl Iterator<Item = usize> + use<> {
-        let (Self { margin, stride, .. }, [width, height]) = (self, self.n_own);
-        let (first, stride) = (margin[0] + margin[1] * stride, *stride);
-        (0..height).flat_map(move |row| first + row * stride..first + row * stride + width)
-    }
-
-    /// Column and row in the domain; of a copy, beyond it.
-    fn place(&self, cell: usize) -> [isize; 2] {
-        let (cell, stride) = (cell as u32, self.stride as u32);
-        [(cell % stride) as isize - self.margin[0] as isize, (cell / stride) as isize - self.margin[1] as isize]
-    }
-
-    /// The lower left corner of a cell.
-    fn corner(&self, cell: usize) -> DVec2 {
-        let [column, row] = self.place(cell);
-        DVec2::new(column as f64, row as f64) * self.side
-    }
-
-    /// What stands in the cells around, NaN where nothing does.
-    fn around(&self, cell: usize) -> impl Iterator<Item = DVec2> {
-        self.around.iter().map(move |&by| self.points[(cell as isize + by) as usize])
-    }
-
-    /// A cell around whose dart falls earlier, if there is one.
-    fn earlier(&self, cell: usize) -> Option<usize> {
-        let time = self.clocks[cell];
-        let mut others = self.around.iter().map(|&by| (cell as isize + by) as usize);
-        others.find(|&other| self.clocks[other] < time && time < f32::INFINITY).map(|other| self.original(other))
-    }
-
-    fn put(&mut self, point: DVec2) {
-        let [column, row] = (point / self.side).as_uvec2().to_array().map(|n| n as usize);
-        // On the far side, or next to it, rounding may be one cell off.
-        let [column, row] = [column.min(self.n_own[0] - 1), row.min(self.n_own[1] - 1)];
-        let cell = column + self.margin[0] + (row + self.margin[1]) * self.stride;
-        self.points[cell] = point;
-        self.copies(cell).for_each(|(copy, period)| self.points[copy] = point + period);
-        self.set_clock(cell, f32::INFINITY);
-    }
-
-    fn set_clock(&mut self, cell: usize, time: f32) {
-        self.clocks[cell] = time;
-        self.copies(cell).for_each(|(copy, _)| self.clocks[copy] = time);
-    }
-
-    /// The cell of the domain that this one is, or is a copy of.
-    fn original(&self, cell: usize) -> usize {
-        let [x, y] = self.place(cell);
-        let [width, height] = self.n_own.map(|n| n as isize);
-        (x.rem_euclid(width) as usize + self.margin[0]) + (y.rem_euclid(height) as usize + self.margin[1]) * self.stride
-    }
-
-    /// The copies of a cell of the domain, and the periods to them.
-    fn copies(&self, cell: usize) -> impl Iterator<Item = (usize, DVec2)> + use<> {
-        let &Self { domain, n_own, margin, stride, .. } = self;
-        let place = self.place(cell);
-        // In periods, from the first copy beyond the near side to the last beyond the far one.
-        let periods = |axis: usize| {
-            let [n, margin] = [n_own[axis], margin[axis]].map(|n| n as isize);
-            if domain.is_periodic { -((place[axis] + margin) / n)..=(n + margin - 1 - place[axis]) / n } else { 0..=0 }
-        };
-        let (columns, rows) = (periods(0), periods(1));
-        let all = rows.flat_map(move |y| columns.clone().map(move |x| [x, y])).filter(|&periods| periods != [0, 0]);
-        all.map(move |[x, y]| {
-            let by = x * n_own[0] as isize + y * (n_own[1] * stride) as isize;
-            ((cell as isize + by) as usize, DVec2::new(x as f64, y as f64) * domain.size)
-        })
     }
 }
 
@@ -413,10 +306,11 @@ impl Darts {
     }
 
     fn find_near(&mut self, cell: usize) {
-        self.near.resize(self.cells.around.len(), DVec2::NAN);
+        let around = self.cells.around(cell);
+        self.near.resize(around.len(), DVec2::NAN);
         let mut n_near = 0;
         // Written whether it is one or not: that is hard to foresee.
-        for point in self.cells.around(cell) {
+        for point in around {
             self.near[n_near] = point;
             n_near += usize::from(!point.is_nan());
         }
