@@ -64,18 +64,21 @@ fn rounding_brings_no_points_together() {
         let points = poisson_disk(space, &params).unwrap();
         let m = measure(&points).unwrap();
         assert!(m.min_distance * m.hex_spacing >= params.spacing * (1.0 - 1e-14), "{space}");
-        assert!(m.coverage_radius * m.hex_spacing <= params.spacing * (1.0 + 1e-5), "{space}");
+        // Gaps may be missed that are as small as what rounding moves points by.
+        let coarseness = space.origin().map(|x| (x.abs() + 1.0) * f64::EPSILON).into_iter().fold(0.0, f64::max);
+        assert!(m.coverage_radius * m.hex_spacing <= params.spacing + 4.0 * coarseness, "{space}");
     }
 }
 
 #[test]
 fn two_radii_are_both_used_up() {
-    for looseness in [1.2, 1.5, 2.0] {
+    for (looseness, least) in [(1.2, 0.98), (1.5, 0.96), (2.0, 0.93)] {
         let space = spaces()[0];
         let params = PoissonDiskParams { seed: 5, ..PoissonDiskParams::for_about(&space, 20_000) };
         let params = PoissonDiskParams { coverage: Some(looseness * params.spacing), ..params };
         let beta = measure(&poisson_disk(space, &params).unwrap()).unwrap().beta;
-        assert!(beta <= looseness && beta > 0.97 * looseness, "{beta} {looseness}");
+        // Of so few points none may stand quite as near to another as it could.
+        assert!(beta <= looseness && beta > least * looseness, "{beta} {looseness}");
     }
 }
 

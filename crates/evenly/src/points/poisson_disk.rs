@@ -217,7 +217,7 @@ impl Darts {
             let dart = self.dart(level);
             if self.is_farther(cell, dart, self.conflict.max(self.coverage)) {
                 let point = self.displaced(cell, dart);
-                self.cells.put(point);
+                self.cells.put(point, self.coverage);
                 if self.cells.clocks[cell] < f32::INFINITY {
                     self.wind(cell, time, self.area(level));
                 }

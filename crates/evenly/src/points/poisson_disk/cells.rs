@@ -20,6 +20,9 @@ pub(super) struct Cells {
     around: Vec<isize>,
 }
 
+/// From a cell to those beside it.
+const BESIDE: [[isize; 2]; 8] = [[-1, -1], [0, -1], [1, -1], [-1, 0], [1, 0], [-1, 1], [0, 1], [1, 1]];
+
 impl Cells {
     pub fn new(domain: &Domain, spacing: f64, reach: f64) -> Self {
         let n_own = (domain.size * (std::f64::consts::SQRT_2 / spacing)).ceil().max(DVec2::ONE);
@@ -51,30 +54,35 @@ impl Cells {
     }
 
     /// Column and row in the domain; of a copy, beyond it.
+    #[inline]
     fn place(&self, cell: usize) -> [isize; 2] {
         let (cell, stride) = (cell as u32, self.stride as u32);
         [(cell % stride) as isize - self.margin[0] as isize, (cell / stride) as isize - self.margin[1] as isize]
     }
 
     /// The lower left corner of a cell.
+    #[inline]
     pub fn corner(&self, cell: usize) -> DVec2 {
         let [column, row] = self.place(cell);
         DVec2::new(column as f64, row as f64) * self.side
     }
 
     /// What stands in the cells around, NaN where nothing does.
+    #[inline]
     pub fn around(&self, cell: usize) -> impl ExactSizeIterator<Item = DVec2> {
         self.around.iter().map(move |&by| self.points[(cell as isize + by) as usize])
     }
 
     /// A cell around whose dart falls earlier, if there is one.
+    #[inline]
     pub fn earlier(&self, cell: usize) -> Option<usize> {
         let time = self.clocks[cell];
         let mut others = self.around.iter().map(|&by| (cell as isize + by) as usize);
         others.find(|&other| self.clocks[other] < time && time < f32::INFINITY).map(|other| self.original(other))
     }
 
-    pub fn put(&mut self, point: DVec2) {
+    /// Puts a point into its cell; cells beside it that lie within the root of `coverage` of it throw no more darts.
+    pub fn put(&mut self, point: DVec2, coverage: f64) {
         let [column, row] = (point / self.side).as_uvec2().to_array().map(|n| n as usize);
         // On the far side, or next to it, rounding may be one cell off.
         let [column, row] = [column.min(self.n_own[0] - 1), row.min(self.n_own[1] - 1)];
@@ -82,8 +90,17 @@ impl Cells {
         self.points[cell] = point;
         self.copies(cell).for_each(|(copy, period)| self.points[copy] = point + period);
         self.set_clock(cell, f32::INFINITY);
+        let (half, centre) = (0.5 * self.side, self.corner(cell) + 0.5 * self.side);
+        for [x, y] in BESIDE {
+            let to_far_side = (centre + DVec2::new(x as f64, y as f64) * self.side - point).abs() + half;
+            let beside = (cell as isize + x + y * self.stride as isize) as usize;
+            if to_far_side.length_squared() <= coverage && self.clocks[beside] < f32::INFINITY {
+                self.set_clock(self.original(beside), f32::INFINITY);
+            }
+        }
     }
 
+    #[inline]
     pub fn set_clock(&mut self, cell: usize, time: f32) {
         self.clocks[cell] = time;
         self.copies(cell).for_each(|(copy, _)| self.clocks[copy] = time);
@@ -97,6 +114,7 @@ impl Cells {
     }
 
     /// The copies of a cell of the domain, and the periods to them.
+    #[inline]
     fn copies(&self, cell: usize) -> impl Iterator<Item = (usize, DVec2)> + use<> {
         let &Self { domain, n_own, margin, stride, .. } = self;
         let place = self.place(cell);
