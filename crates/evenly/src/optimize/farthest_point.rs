@@ -44,6 +44,8 @@ impl Default for FarthestPointParams {
     }
 }
 
+/// After so many moves it is asked whether the run is cancelled.
+const ASKING: u32 = 1 << 12;
 /// Points that move no farther than this part of the spacing are at rest.
 const STILL: f64 = 1e-6;
 
@@ -117,6 +119,9 @@ pub fn farthest_point(points: &mut PointSet, params: &FarthestPointParams, run: 
         let mut farthest = 0.0f64;
         for point in 0..n_points {
             farthest = farthest.max(gaps.move_to_farthest(point, params.is_local, params.relaxation)?);
+            if point % ASKING == 0 && run.is_cancelled() {
+                break;
+            }
         }
         report.iterations += 1;
         report.visits += n_points as usize;
