@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use evenly::{
     CANDIDATES_A_POINT, CvtParams, DartParams, DistMeshParams, Error, FarthestPointParams, LloydParams, Measures, Mode, OptBetaParams,
     Outcome, Phase, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Space,
-    Torus, WellSpacedParams, cvt, dart, distmesh, eliminate, farthest_point, lloyd, measure, opt_beta, poisson_disk, poisson_disk_of,
-    procrustes, push_pull, warp, warp_isotropic, well_spaced, white,
+    Targets, Torus, WellSpacedParams, cvt, dart, distmesh, eliminate, farthest_point, lloyd, measure, opt_beta, poisson_disk,
+    poisson_disk_of, procrustes, push_pull, warp, warp_isotropic, well_spaced, white,
 };
 use peak_alloc::PeakAlloc;
 

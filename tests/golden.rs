@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 use evenly::{
-    Measures, Mode, Outcome, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Torus,
-    WellSpacedParams, jittered, measure, procrustes, push_pull, warp, warp_isotropic, well_spaced, white,
+    Measures, Mode, Outcome, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Targets,
+    Torus, WellSpacedParams, jittered, measure, procrustes, push_pull, warp, warp_isotropic, well_spaced, white,
 };
 
 const SEEDS: std::ops::Range<u64> = 0..5;

@@ -6,9 +6,9 @@ mod spaces;
 
 use evenly::{
     CancelToken, CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Mode, OptBetaParams, Outcome, PointSet,
-    ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Torus, WellSpacedParams, capacity,
-    cvt, distmesh, farthest_point, hexagonal, jittered, lloyd, measure, opt_beta, procrustes, push_pull, tessellate, warp, well_spaced,
-    white,
+    ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Targets, Torus, WellSpacedParams,
+    capacity, cvt, distmesh, farthest_point, hexagonal, jittered, lloyd, measure, opt_beta, procrustes, push_pull, tessellate, warp,
+    well_spaced, white,
 };
 use proptest::prelude::*;
 

@@ -5,8 +5,8 @@
 mod spaces;
 
 use evenly::{
-    Outcome, PushPullParams, PushPullPreset, RunContext, WellSpacedParams, angle_bounds_deg, hexagonal, jittered, measure, push_pull, warp,
-    well_spaced, white,
+    Outcome, PushPullParams, PushPullPreset, RunContext, Targets, WellSpacedParams, angle_bounds_deg, hexagonal, jittered, measure,
+    push_pull, warp, well_spaced, white,
 };
 
 use spaces::{n_distinct, rectangle, spaces, torus};

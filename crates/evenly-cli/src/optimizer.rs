@@ -1,9 +1,9 @@
 //! The optimisers behind one face: what a run needs to know of whichever it is.
 
 use evenly::{
-    CapacityParams, CvtParams, DistMeshParams, Error, FarthestPointParams, LloydParams, Measures, OptBetaParams, PointSet,
-    ProcrustesParams, PushPullParams, Report, RunContext, Space, UnmetTarget, WellSpacedParams, capacity, cvt, distmesh, farthest_point,
-    lloyd, opt_beta, procrustes, push_pull, warp, warp_isotropic, well_spaced,
+    CapacityParams, CvtParams, DistMeshParams, Error, FarthestPointParams, LloydParams, OptBetaParams, PointSet, ProcrustesParams,
+    PushPullParams, Report, RunContext, Targets, WellSpacedParams, capacity, cvt, distmesh, farthest_point, lloyd, opt_beta, procrustes,
+    push_pull, warp, warp_isotropic, well_spaced,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -33,24 +33,9 @@ pub trait Optimizer: Parameters + Send + Sync {
         None
     }
 
-    /// Whether it was asked to reach something that can be measured.
-    fn has_targets(&self) -> bool {
-        false
-    }
-
-    /// What to expect, where it is no good.
-    fn advice(&self, _space: &Space) -> Option<String> {
+    /// What it was asked to reach, if that can be measured.
+    fn targets(&self) -> Option<&dyn Targets> {
         None
-    }
-
-    /// By how much points with these measures miss a target; 0 for a method that has none.
-    fn worst_miss(&self, _measures: &Measures) -> f64 {
-        0.0
-    }
-
-    /// The targets that points with these measures miss.
-    fn unmet(&self, _measures: &Measures) -> Vec<UnmetTarget> {
-        Vec::new()
     }
 }
 
@@ -77,20 +62,8 @@ impl Optimizer for PushPullParams {
         Some(warp_isotropic)
     }
 
-    fn has_targets(&self) -> bool {
-        true
-    }
-
-    fn advice(&self, space: &Space) -> Option<String> {
-        Self::advice(self, space)
-    }
-
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        Self::worst_miss(self, measures)
-    }
-
-    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
-        Self::unmet(self, measures)
+    fn targets(&self) -> Option<&dyn Targets> {
+        Some(self)
     }
 }
 
@@ -107,20 +80,8 @@ impl Optimizer for WellSpacedParams {
         Some(warp_isotropic)
     }
 
-    fn has_targets(&self) -> bool {
-        true
-    }
-
-    fn advice(&self, space: &Space) -> Option<String> {
-        Self::advice(self, space)
-    }
-
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        Self::worst_miss(self, measures)
-    }
-
-    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
-        Self::unmet(self, measures).into_iter().collect()
+    fn targets(&self) -> Option<&dyn Targets> {
+        Some(self)
     }
 }
 
@@ -129,16 +90,8 @@ impl Optimizer for OptBetaParams {
         opt_beta(points, self, run)
     }
 
-    fn has_targets(&self) -> bool {
-        true
-    }
-
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        Self::worst_miss(self, measures)
-    }
-
-    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
-        Self::unmet(self, measures).into_iter().collect()
+    fn targets(&self) -> Option<&dyn Targets> {
+        Some(self)
     }
 }
 
@@ -171,16 +124,8 @@ impl Optimizer for CapacityParams {
         Some(self.seed)
     }
 
-    fn has_targets(&self) -> bool {
-        true
-    }
-
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        Self::worst_miss(self, measures)
-    }
-
-    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
-        Self::unmet(self, measures).into_iter().collect()
+    fn targets(&self) -> Option<&dyn Targets> {
+        Some(self)
     }
 }
 
@@ -189,16 +134,8 @@ impl Optimizer for FarthestPointParams {
         farthest_point(points, self, run)
     }
 
-    fn has_targets(&self) -> bool {
-        self.min_distance.is_some()
-    }
-
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        Self::worst_miss(self, measures)
-    }
-
-    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
-        Self::unmet(self, measures).into_iter().collect()
+    fn targets(&self) -> Option<&dyn Targets> {
+        self.min_distance.map(|_| self as &dyn Targets)
     }
 }
 

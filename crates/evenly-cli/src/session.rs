@@ -100,11 +100,11 @@ impl<'a> Session<'a> {
     ) -> anyhow::Result<ExitCode> {
         self.seed = self.seed.or(optimizer.seed());
         let warp = optimizer.warp().filter(|_| is_warped && points.n_points() >= 3);
-        let start = (warp.is_some() && optimizer.has_targets()).then(|| points.clone());
+        let start = (warp.is_some() && optimizer.targets().is_some()).then(|| points.clone());
         if let Some(warp) = warp {
             self.time("warp", || warp(&mut points));
         }
-        if let Some(advice) = optimizer.advice(points.space()) {
+        if let Some(advice) = optimizer.targets().and_then(|targets| targets.advice(points.space())) {
             self.note(advice);
         }
         interrupt::cancels(&self.cancel, self.args.quiet)?;
@@ -144,17 +144,18 @@ impl<'a> Session<'a> {
 
     /// Whether the first set misses the targets by less than the second.
     fn is_nearer(&mut self, first: &PointSet, second: &PointSet, optimizer: &dyn Optimizer) -> bool {
-        let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| optimizer.worst_miss(&measures));
+        let Some(targets) = optimizer.targets() else { return false };
+        let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| targets.worst_miss(&measures));
         self.time("measure", || miss(first) < miss(second))
     }
 
     /// Measures the points, writes them and the record, and says how it went.
     pub fn finish(mut self, points: PointSet, method: Method, run: Option<Report>) -> anyhow::Result<ExitCode> {
-        let has_targets = self.optimizer.as_ref().is_some_and(|optimizer| optimizer.has_targets());
+        let has_targets = self.optimizer.as_ref().is_some_and(|optimizer| optimizer.targets().is_some());
         let is_wanted = !self.args.quiet || self.args.json || self.report.is_some() || has_targets;
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
-        let with_targets = self.optimizer.as_ref().filter(|_| has_targets);
-        let unmet = with_targets.zip(measures.as_ref()).map(|(optimizer, measures)| optimizer.unmet(measures));
+        let targets = self.optimizer.as_ref().and_then(|optimizer| optimizer.targets());
+        let unmet = targets.zip(measures.as_ref()).map(|(targets, measures)| targets.unmet(measures));
         let recipe = record::recipe(self.seed);
         let start = Instant::now();
         self.pool.install(|| write_points(&points, &self.draw, &recipe, &self.output))?;

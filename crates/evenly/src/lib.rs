@@ -30,8 +30,8 @@ pub use error::Error;
 pub use measure::{BorderMeasures, Measures, Tessellation, measure, tessellate};
 pub use optimize::{
     CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Mode, OptBetaParams, ProcrustesParams, PushPullParams,
-    PushPullPreset, UnmetTarget, WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh, farthest_point, lloyd, opt_beta, procrustes,
-    push_pull, well_spaced,
+    PushPullPreset, Targets, UnmetTarget, WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh, farthest_point, lloyd, opt_beta,
+    procrustes, push_pull, well_spaced,
 };
 pub use points::{
     CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,

@@ -124,7 +124,8 @@ impl Runner<'_> {
             return Ok(None);
         }
         let measures = measure(&points).with_context(|| method.name())?;
-        let is_reached = optimizer.filter(|optimizer| optimizer.has_targets()).map(|optimizer| optimizer.unmet(&measures).is_empty());
+        let targets = optimizer.as_ref().and_then(|optimizer| optimizer.targets());
+        let is_reached = targets.map(|targets| targets.unmet(&measures).is_empty());
         let iterations = report.map(|report| report.iterations);
         Ok(Some((Run { seed, seconds, iterations, is_reached, measures }, points)))
     }

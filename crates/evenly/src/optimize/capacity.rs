@@ -7,7 +7,8 @@
 
 use serde::Serialize;
 
-use super::push_pull::{PushPullParams, UnmetTarget, push_and_pull};
+use super::push_pull::{PushPullParams, push_and_pull};
+use super::targets::{Targets, UnmetTarget};
 use crate::error::Error;
 use crate::measure::Measures;
 use crate::points::PointSet;
@@ -39,16 +40,6 @@ impl CapacityParams {
         self.targets().validate()
     }
 
-    /// The target, if points with these measures do not reach it, by more than a millionth.
-    pub fn unmet(&self, measures: &Measures) -> Option<UnmetTarget> {
-        self.targets().unmet(measures).pop()
-    }
-
-    /// By how much these measures miss the tolerance; 0 where it is met.
-    pub fn worst_miss(&self, measures: &Measures) -> f64 {
-        self.targets().worst_miss(measures)
-    }
-
     fn targets(&self) -> PushPullParams {
         PushPullParams {
             min_distance: None,
@@ -58,6 +49,16 @@ impl CapacityParams {
             seed: self.seed,
             ..PushPullParams::default()
         }
+    }
+}
+
+impl Targets for CapacityParams {
+    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
+        self.targets().unmet(measures)
+    }
+
+    fn worst_miss(&self, measures: &Measures) -> f64 {
+        self.targets().worst_miss(measures)
     }
 }
 

@@ -16,8 +16,8 @@ use serde::Serialize;
 
 use self::gaps::Gaps;
 use super::prepare::{Prepared, keep_distinct, prepare};
-use super::push_pull::UnmetTarget;
 use super::relax::Passes;
+use super::targets::{ROUNDING, Targets, UnmetTarget};
 use crate::error::Error;
 use crate::measure::Measures;
 use crate::points::PointSet;
@@ -67,15 +67,15 @@ impl FarthestPointParams {
         }
         Passes { n_passes: self.iterations, seed: 0 }.validate()
     }
+}
 
-    /// The target, if points with these measures do not reach it, by more than a millionth.
-    pub fn unmet(&self, measures: &Measures) -> Option<UnmetTarget> {
-        let wanted = self.min_distance.filter(|&wanted| measures.min_distance < wanted - 1e-6)?;
-        Some(UnmetTarget { name: "min_distance", wanted, measured: measures.min_distance })
+impl Targets for FarthestPointParams {
+    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
+        let missed = self.min_distance.filter(|&wanted| measures.min_distance < wanted - ROUNDING);
+        missed.map(|wanted| UnmetTarget { name: "min_distance", wanted, measured: measures.min_distance }).into_iter().collect()
     }
 
-    /// By how much these measures miss the target, relative to it; 0 where it is met.
-    pub fn worst_miss(&self, measures: &Measures) -> f64 {
+    fn worst_miss(&self, measures: &Measures) -> f64 {
         self.min_distance.map_or(0.0, |wanted| (1.0 - measures.min_distance / wanted).max(0.0))
     }
 }

@@ -10,6 +10,7 @@ mod prepare;
 mod procrustes;
 mod push_pull;
 mod relax;
+mod targets;
 mod well_spaced;
 
 pub use capacity::{CapacityParams, capacity};
@@ -19,5 +20,6 @@ pub use farthest_point::{FarthestPointParams, farthest_point};
 pub use lloyd::{LloydParams, lloyd};
 pub use opt_beta::{OptBetaParams, opt_beta};
 pub use procrustes::{Mode, ProcrustesParams, procrustes};
-pub use push_pull::{PushPullParams, PushPullPreset, UnmetTarget, push_pull};
+pub use push_pull::{PushPullParams, PushPullPreset, push_pull};
+pub use targets::{Targets, UnmetTarget};
 pub use well_spaced::{WellSpacedParams, angle_bounds_deg, well_spaced};

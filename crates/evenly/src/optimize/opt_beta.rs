@@ -19,9 +19,8 @@ use serde::Serialize;
 use self::local_ratio::local_ratio;
 use self::nelder_mead::minimize;
 use super::prepare::{Prepared, keep_distinct, prepare};
-use super::push_pull::UnmetTarget;
 use super::relax::Passes;
-use super::well_spaced::{unmet_beta, validate_beta};
+use super::targets::{Targets, UnmetTarget, beta_miss, unmet_beta, validate_beta};
 use crate::error::Error;
 use crate::measure::Measures;
 use crate::points::PointSet;
@@ -67,15 +66,15 @@ impl OptBetaParams {
         }
         Passes { n_passes: self.iterations, seed: 0 }.validate()
     }
+}
 
-    /// The target that points with these measures do not reach, by more than a millionth.
-    pub fn unmet(&self, measures: &Measures) -> Option<UnmetTarget> {
+impl Targets for OptBetaParams {
+    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
         unmet_beta(self.beta, measures)
     }
 
-    /// By how much these measures miss the ratio, relative to it; 0 where it is met.
-    pub fn worst_miss(&self, measures: &Measures) -> f64 {
-        (measures.beta / self.beta - 1.0).max(0.0)
+    fn worst_miss(&self, measures: &Measures) -> f64 {
+        beta_miss(self.beta, measures)
     }
 }
 

@@ -23,6 +23,7 @@ use serde::Serialize;
 use self::frontier::{Known, nearest_known};
 use self::rule::PushPull;
 use super::prepare::{Prepared, keep_distinct, prepare};
+use super::targets::{ROUNDING, Targets, UnmetTarget};
 use crate::error::Error;
 use crate::measure::{Measures, measure};
 use crate::points::PointSet;
@@ -94,17 +95,6 @@ impl Default for PushPullParams {
     }
 }
 
-/// A target that points do not reach.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct UnmetTarget {
-    /// The target's name, as in [`PushPullParams`].
-    pub name: &'static str,
-    /// What was wanted.
-    pub wanted: f64,
-    /// What was measured.
-    pub measured: f64,
-}
-
 impl PushPullParams {
     /// The parameters of a preset.
     pub fn preset(preset: PushPullPreset) -> Self {
@@ -166,9 +156,28 @@ impl PushPullParams {
         }
     }
 
-    /// The targets that points with these measures do not reach, by more than a millionth.
-    pub fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
-        const ROUNDING: f64 = 1e-6;
+    fn nearest_known(&self, space: &Space) -> Option<(f64, f64)> {
+        let known = match self.schedule {
+            Schedule::Summed => Known::Summed,
+            Schedule::InTurn if space.is_periodic() => Known::OnTorus,
+            Schedule::InTurn => Known::InRectangle,
+        };
+        nearest_known(self.min_distance, self.coverage_radius, self.capacity_tolerance, known)
+    }
+
+    /// The relaxation from which on a run may diverge.
+    fn safe_relaxation(&self) -> f64 {
+        if self.schedule == Schedule::Summed { 0.5 } else { 1.0 }
+    }
+
+    /// Passes that tough targets may take: more points have a worse worst spot.
+    fn pass_limit(&self, n_points: usize) -> usize {
+        self.max_passes.unwrap_or_else(|| (1000.0 * ((n_points as f64).log10() - 1.0)).max(2000.0) as usize)
+    }
+}
+
+impl Targets for PushPullParams {
+    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
         let targets = [
             ("min_distance", self.min_distance, measures.min_distance, -1.0),
             ("coverage_radius", self.coverage_radius, measures.coverage_radius, 1.0),
@@ -181,40 +190,19 @@ impl PushPullParams {
             .collect()
     }
 
-    /// What to expect of targets that are tougher than those that are known to be reached in this domain.
-    pub fn advice(&self, space: &Space) -> Option<String> {
-        let (distance, radius) = self.nearest_known(space)?;
-        let named = |name: &str, wanted: Option<f64>, known: f64| wanted.map(|_| format!("{name} {known}"));
-        let known = [named("min distance", self.min_distance, distance), named("coverage radius", self.coverage_radius, radius)];
-        let known = known.into_iter().flatten().collect::<Vec<_>>().join(" with ");
-        Some(format!("these targets are not known to be reached here, and the run may be long; the nearest that are: {known}"))
-    }
-
-    fn nearest_known(&self, space: &Space) -> Option<(f64, f64)> {
-        let known = match self.schedule {
-            Schedule::Summed => Known::Summed,
-            Schedule::InTurn if space.is_periodic() => Known::OnTorus,
-            Schedule::InTurn => Known::InRectangle,
-        };
-        nearest_known(self.min_distance, self.coverage_radius, self.capacity_tolerance, known)
-    }
-
-    /// By how much these measures miss the target that they miss most, relative to it, the capacity relative to the mean; 0 where all are met.
-    pub fn worst_miss(&self, measures: &Measures) -> f64 {
+    fn worst_miss(&self, measures: &Measures) -> f64 {
         let of_distance = self.min_distance.map(|wanted| 1.0 - measures.min_distance / wanted);
         let of_radius = self.coverage_radius.map(|wanted| measures.coverage_radius / wanted - 1.0);
         let of_capacity = self.capacity_tolerance.map(|wanted| measures.capacity_max_deviation - wanted);
         [of_distance, of_radius, of_capacity].into_iter().flatten().fold(0.0, f64::max)
     }
 
-    /// The relaxation from which on a run may diverge.
-    fn safe_relaxation(&self) -> f64 {
-        if self.schedule == Schedule::Summed { 0.5 } else { 1.0 }
-    }
-
-    /// Passes that tough targets may take: more points have a worse worst spot.
-    fn pass_limit(&self, n_points: usize) -> usize {
-        self.max_passes.unwrap_or_else(|| (1000.0 * ((n_points as f64).log10() - 1.0)).max(2000.0) as usize)
+    fn advice(&self, space: &Space) -> Option<String> {
+        let (distance, radius) = self.nearest_known(space)?;
+        let named = |name: &str, wanted: Option<f64>, known: f64| wanted.map(|_| format!("{name} {known}"));
+        let known = [named("min distance", self.min_distance, distance), named("coverage radius", self.coverage_radius, radius)];
+        let known = known.into_iter().flatten().collect::<Vec<_>>().join(" with ");
+        Some(format!("these targets are not known to be reached here, and the run may be long; the nearest that are: {known}"))
     }
 }
 

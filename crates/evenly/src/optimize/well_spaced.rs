@@ -13,7 +13,8 @@
 
 use serde::Serialize;
 
-use super::push_pull::{PushPullParams, UnmetTarget, push_and_pull};
+use super::push_pull::{PushPullParams, push_and_pull};
+use super::targets::{Targets, UnmetTarget, beta_miss, unmet_beta, validate_beta};
 use crate::error::Error;
 use crate::measure::{Measures, measure};
 use crate::points::PointSet;
@@ -71,23 +72,6 @@ impl WellSpacedParams {
         self.targets().validate()
     }
 
-    /// What to expect of a ratio below those that are known to be reached in this domain.
-    pub fn advice(&self, space: &Space) -> Option<String> {
-        let known = KNOWN[usize::from(!space.is_periodic())];
-        let text = || format!("beta {} is not known to be reached here, and the run may be long; {known} is", self.beta);
-        (self.beta < known).then(text)
-    }
-
-    /// The target that points with these measures do not reach, by more than a millionth.
-    pub fn unmet(&self, measures: &Measures) -> Option<UnmetTarget> {
-        unmet_beta(self.beta, measures)
-    }
-
-    /// By how much these measures miss the ratio, relative to it; 0 where it is met.
-    pub fn worst_miss(&self, measures: &Measures) -> f64 {
-        (measures.beta / self.beta - 1.0).max(0.0)
-    }
-
     /// One distance and one radius for all.
     fn targets(&self) -> PushPullParams {
         let Way { kappa, relaxation, capacity_tolerance, .. } = *WAYS.iter().find(|way| self.beta >= way.beta).unwrap_or(&WAYS[0]);
@@ -105,19 +89,20 @@ impl WellSpacedParams {
     }
 }
 
-/// # Errors
-/// [`Error::InvalidParameter`] for a ratio outside [0.578, 2].
-pub(super) fn validate_beta(beta: f64) -> Result<(), Error> {
-    if !(0.578..=2.0).contains(&beta) {
-        return Err(Error::InvalidParameter { name: "beta", value: beta.to_string(), expected: "0.578 or more, and 2 at most" });
+impl Targets for WellSpacedParams {
+    fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
+        unmet_beta(self.beta, measures)
     }
-    Ok(())
-}
 
-/// The ratio, if points with these measures do not reach it, by more than a millionth.
-pub(super) fn unmet_beta(beta: f64, measures: &Measures) -> Option<UnmetTarget> {
-    let is_met = measures.beta <= beta + 1e-6;
-    (!is_met).then_some(UnmetTarget { name: "beta", wanted: beta, measured: measures.beta })
+    fn worst_miss(&self, measures: &Measures) -> f64 {
+        beta_miss(self.beta, measures)
+    }
+
+    fn advice(&self, space: &Space) -> Option<String> {
+        let known = KNOWN[usize::from(!space.is_periodic())];
+        let text = || format!("beta {} is not known to be reached here, and the run may be long; {known} is", self.beta);
+        (self.beta < known).then(text)
+    }
 }
 
 /// The angles in degrees between which all angles of a Delaunay triangulation lie whose coverage radius is `beta` times its smallest distance; `None`
@@ -153,7 +138,7 @@ pub fn well_spaced(points: &mut PointSet, params: &WellSpacedParams, run: &mut R
     push_and_pull(points, &params.targets(), run, &mut report)?;
     // The ratio may be met though the distance and the radius are not.
     let has_missed = matches!(report.outcome, Outcome::IterationLimit | Outcome::LostToRounding);
-    if has_missed && measure(points).is_ok_and(|measures| params.unmet(&measures).is_none()) {
+    if has_missed && measure(points).is_ok_and(|measures| params.unmet(&measures).is_empty()) {
         report.outcome = Outcome::Converged;
     }
     report.note_limit();
