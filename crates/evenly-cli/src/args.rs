@@ -80,7 +80,7 @@ pub struct Optimize {
     /// How they are improved
     #[arg(long, default_value = "procrustes", value_parser = parser(|method| method.is_optimizer() || method == Method::Warp))]
     pub method: Method,
-    /// The same seed gives the same points; Procrustes analysis uses none
+    /// The same seed gives the same points; procrustes, opt-beta, cvt and farthest-point use none
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     #[command(flatten)]
@@ -129,9 +129,9 @@ pub struct Compare {
     /// How often, each time with the next seed
     #[arg(long, value_name = "K", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     pub runs: u16,
-    /// What all optimisers start from, without an input
-    #[arg(long, default_value = "white", value_parser = parser(Method::is_start), hide_possible_values = true)]
-    pub start: Method,
+    /// What all optimisers start from, without an input [default: white]
+    #[arg(long, value_parser = parser(Method::is_start), hide_possible_values = true, conflicts_with = "input")]
+    pub start: Option<Method>,
     /// The first run's seed
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,

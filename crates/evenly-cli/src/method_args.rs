@@ -3,7 +3,7 @@
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use evenly::{
-    CANDIDATES_A_POINT, CapacityParams, CvtParams, DartParams, DistMeshParams, Error, FarthestPointParams, LloydParams, Mode,
+    CANDIDATES_A_POINT, CapacityParams, CvtParams, DartParams, DistMeshParams, Error, FarthestPointParams, LloydParams, MAX_POINTS, Mode,
     OptBetaParams, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams, PushPullPreset, Schedule, Space, WellSpacedParams, dart,
     eliminate, hexagonal, jittered, poisson_disk, white,
 };
@@ -217,7 +217,9 @@ impl OptimizerArgs {
 
     fn capacity(&self, seed: u64) -> Result<CapacityParams, Error> {
         let mut params = CapacityParams { max_passes: self.iterations, seed, ..CapacityParams::default() };
-        set(&mut params.capacity_tolerance, self.capacity_tolerance.and_then(|target| target.0));
+        let off =
+            Error::InvalidParameter { name: "capacity_tolerance", value: "off".into(), expected: "a number: there is no other target" };
+        set(&mut params.capacity_tolerance, self.capacity_tolerance.map(|target| target.0.ok_or(off)).transpose()?);
         params.validate()?;
         Ok(params)
     }
@@ -249,7 +251,12 @@ impl StartArgs {
         let params = self.spacing.map_or(estimated, |spacing| PoissonDiskParams { spacing, ..estimated });
         let points = poisson_disk(space, &PoissonDiskParams { coverage: self.coverage, ..params }).map_err(by_flag)?;
         let note = n_points.filter(|&n| n != points.n_points()).map(|n| {
-            format!("a maximal set's number of points is chance: {} for {n}, with a spacing of {:.6e}", points.n_points(), params.spacing)
+            let why = if self.coverage.is_some() {
+                "with a wider coverage fewer points are needed"
+            } else {
+                "a maximal set's number of points is chance"
+            };
+            format!("{why}: {} for {n}, with a spacing of {:.6e}", points.n_points(), params.spacing)
         });
         Ok((points, note))
     }
@@ -260,7 +267,9 @@ pub fn start(method: Method, space: Space, n_points: usize, seed: u64) -> Result
     match method {
         Method::PoissonDisk => evenly::poisson_disk_of(space, n_points, seed),
         Method::Dart => dart(space, &DartParams { n_points: Some(n_points), seed, ..DartParams::default() }),
-        Method::Eliminate => eliminate(&white(space, n_points.saturating_mul(CANDIDATES_A_POINT), seed)?, n_points),
+        Method::Eliminate => {
+            eliminate(&white(space, n_points.saturating_mul(CANDIDATES_A_POINT).min(MAX_POINTS.max(n_points)), seed)?, n_points)
+        }
         Method::Jittered => jittered(space, n_points, seed),
         Method::Hexagonal => hexagonal(space, n_points),
         _ => white(space, n_points, seed),

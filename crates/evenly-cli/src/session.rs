@@ -108,7 +108,7 @@ impl<'a> Session<'a> {
             self.note(advice);
         }
         interrupt::cancels(&self.cancel, self.args.quiet)?;
-        let bar = self.bar();
+        let bar = bar(self.args.quiet, 1000, "{msg} [{bar:30}] {eta} left");
         let mut clock = PhaseClock::default();
         let cancel = self.cancel.clone();
         let done = self.pool.install(|| {
@@ -236,30 +236,30 @@ impl<'a> Session<'a> {
             }
         }
     }
+}
 
-    /// A bar on stderr where that is a terminal, and nothing where it is not.
-    fn bar(&self) -> ProgressBar {
-        if self.args.quiet {
-            return ProgressBar::hidden();
-        }
-        let bar = ProgressBar::new(1000);
-        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {eta} left") {
-            bar.set_style(style.progress_chars("=> "));
-        }
-        bar
+/// A bar on stderr where that is a terminal, and nothing where it is not.
+pub fn bar(is_quiet: bool, length: u64, template: &str) -> ProgressBar {
+    if is_quiet {
+        return ProgressBar::hidden();
     }
+    let bar = ProgressBar::new(length);
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar
 }
 
 /// What a run did.
 fn work(run: &Report) -> String {
-    if run.visits > 0 {
-        let visits = run.visits as f64 / run.n_points as f64;
-        return format!("{visits:.1} visits a point, {} flips, {} triangulations", run.flips, run.triangulations);
+    if run.method == "procrustes" {
+        return format!(
+            "{} flips, {} moves undone, {} rises of the energy, {} inverted triangles",
+            run.flips, run.moves_undone, run.energy_rises, run.inverted_triangles
+        );
     }
-    format!(
-        "{} flips, {} moves undone, {} rises of the energy, {} inverted triangles",
-        run.flips, run.moves_undone, run.energy_rises, run.inverted_triangles
-    )
+    let visits = run.visits as f64 / run.n_points as f64;
+    format!("{visits:.1} visits a point, {} flips, {} triangulations", run.flips, run.triangulations)
 }
 
 fn show(bar: &ProgressBar, progress: Progress) {

@@ -23,7 +23,8 @@ const ABREAST: usize = 5;
 
 impl Kind {
     pub fn of_path(path: &Path) -> anyhow::Result<Self> {
-        Ok(match path.extension().and_then(|ending| ending.to_str()) {
+        let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
+        Ok(match ending.as_deref() {
             Some("md") => Self::Markdown,
             Some("csv") => Self::Csv,
             Some("json") => Self::Json,

@@ -99,7 +99,7 @@ pub enum Outcome {
     IterationLimit,
     /// The stop criterion was met, but not any more after rounding to input units: the domain is too far from 0.
     LostToRounding,
-    /// The run was cancelled; the best state reached is kept.
+    /// The run was cancelled; the state reached is kept, or the best, of methods that keep that.
     Cancelled,
     /// Fewer than three points: nothing to optimise.
     NothingToDo,
@@ -123,9 +123,9 @@ pub struct Report {
     /// What the method brings down, before the first iteration and after each: of Procrustes its energy, as a fraction of the domain's area, of cvt the energy
     /// relative to the hexagonal lattice's, of opt-beta beta; of other methods nothing.
     pub energy: Vec<f64>,
-    /// How often the energy rose from one iteration to the next, by more than rounding; steps in which a rectangle's triangulation is built anew do not count.
+    /// Of Procrustes: how often its energy rose from one iteration to the next, by more than rounding; steps in which a rectangle's triangulation is built anew do not count.
     pub energy_rises: usize,
-    /// Edges flipped in the whole run.
+    /// Edges flipped; of methods that sweep, and of Procrustes.
     pub flips: usize,
     /// Triangle corners put back because a move would have turned a triangle over.
     pub moves_undone: usize,

@@ -1,4 +1,4 @@
-//! A *star*: one vertex seen from itself. It knows lengths and angles, and no coordinates; a rule reads it, and nothing else.
+//! A *star*: one vertex seen from itself. It knows lengths and angles, and no coordinates of the domain; a rule reads it, and nothing else.
 //!
 //! Lengths are in units of the wanted spacing. The wedge of two neighbouring spokes u and v has a circumcircle, and holds a kite of the
 //! vertex' Voronoi cell: with c and s the cosine and sine of its angle, R = |u - v| / (2 s), and the half of the
@@ -111,7 +111,7 @@ impl Star {
         u * u + v * v - 2.0 * u * v * self.wedges[k].cos
     }
 
-    /// Whether that is so in all wedges.
+    /// Whether the circumradii of all wedges' triangles are at most `radius`.
     pub fn is_all_covered(&self, radius: f64) -> bool {
         (0..self.n_spokes()).all(|k| self.is_covered(k, radius))
     }

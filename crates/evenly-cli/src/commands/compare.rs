@@ -5,14 +5,13 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use clap::ArgMatches;
-use evenly::{CancelToken, Outcome, PointSet, PoissonDiskParams, RunContext, Space, measure, poisson_disk};
+use evenly::{CancelToken, Outcome, PointSet, PoissonDiskParams, Rectangle, RunContext, Space, measure, poisson_disk};
 use evenly_io::{Draw, Target, figure};
-use indicatif::ProgressBar;
 
 use crate::args::Compare;
 use crate::comparison::{Column, Comparison, Run};
 use crate::method::{Method, refuse_others_flags};
-use crate::method_args::start;
+use crate::method_args::start as begin;
 use crate::table::Kind;
 use crate::talk::say;
 use crate::{input, interrupt, record, session};
@@ -42,9 +41,14 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
         bail!("{n_points} points: to compare methods takes 3 or more");
     }
 
+    // What is wrong with a parameter is said before the work begins.
+    for &method in &methods {
+        args.optimizer.optimizer(method, args.seed)?;
+    }
+    let start = args.start.unwrap_or(Method::White);
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.quiet)?;
-    let runner = Runner { args, space, n_points, given, cancel };
+    let runner = Runner { args, space, n_points, start, given, cancel };
     let pool = session::pool(args.threads)?;
     let is_drawn = matches!(output, Some((Kind::Html, _)));
     let comparison = pool.install(|| runner.compare(&methods, is_drawn))?;
@@ -60,23 +64,25 @@ struct Runner<'a> {
     args: &'a Compare,
     space: Space,
     n_points: usize,
+    /// What optimisers begin with, unless points are given.
+    start: Method,
     given: Option<PointSet>,
     cancel: CancelToken,
 }
 
 impl Runner<'_> {
     fn compare(&self, methods: &[Method], is_drawn: bool) -> anyhow::Result<Comparison> {
-        let bar =
-            if self.args.quiet { ProgressBar::hidden() } else { ProgressBar::new((methods.len() * usize::from(self.args.runs)) as u64) };
+        let n_runs = methods.len() as u64 * u64::from(self.args.runs);
+        let bar = session::bar(self.args.quiet, n_runs, "{msg} [{bar:30}] {pos} of {len} runs");
         let mut columns = Vec::new();
-        for &method in methods {
+        for &method in methods.iter().take_while(|_| !self.cancel.is_cancelled()) {
             let mut column = Column { method: method.name(), runs: Vec::new(), picture: None };
             for index in 0..self.args.runs {
                 bar.set_message(method.name());
                 let seed = self.args.seed.wrapping_add(index.into());
                 let Some((run, points)) = self.run(method, seed)? else { break };
                 if is_drawn && index == 0 {
-                    column.picture = Some(figure(&excerpt(&points)?, &[Draw::Points], &record::recipe(Some(seed)))?);
+                    column.picture = excerpt(&points).and_then(|points| figure(&points, &[Draw::Points], &record::recipe(Some(seed))).ok());
                 }
                 column.runs.push(run);
                 bar.inc(1);
@@ -86,27 +92,27 @@ impl Runner<'_> {
             }
         }
         bar.finish_and_clear();
-        let start = if self.given.is_some() { None } else { Some(self.args.start.name()) };
+        let start = if self.given.is_some() { None } else { Some(self.start.name()) };
         Ok(Comparison { version: record::VERSION, command: record::command(), space: self.space, n_points: self.n_points, start, columns })
     }
 
     /// One run of a method; `None` if it was interrupted.
     fn run(&self, method: Method, seed: u64) -> anyhow::Result<Option<(Run, PointSet)>> {
-        let optimizer = self.args.optimizer.optimizer(method, seed)?;
-        let mut points = match (&optimizer, &self.given) {
-            (Some(_), Some(given)) => given.clone(),
-            (Some(_), None) => start(self.args.start, self.space, self.n_points, seed)?,
-            (None, _) => PointSet::new(self.space, Vec::new())?,
-        };
         if self.cancel.is_cancelled() {
             return Ok(None);
         }
-        let begin = Instant::now();
+        let optimizer = self.args.optimizer.optimizer(method, seed)?;
+        let mut points = match (&optimizer, &self.given) {
+            (Some(_), Some(given)) => given.clone(),
+            (Some(_), None) => begin(self.start, self.space, self.n_points, seed)?,
+            (None, _) => PointSet::new(self.space, Vec::new())?,
+        };
+        let clock = Instant::now();
         let mut report = None;
         match &optimizer {
             Some(optimizer) => {
                 // Of the starts, only white noise has long density waves.
-                let is_warped = !self.args.optimizer.no_warp && (self.given.is_some() || self.args.start == Method::White);
+                let is_warped = !self.args.optimizer.no_warp && (self.given.is_some() || self.start == Method::White);
                 if let Some(warp) = optimizer.warp().filter(|_| is_warped) {
                     warp(&mut points);
                 }
@@ -117,9 +123,9 @@ impl Runner<'_> {
                 let params = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&self.space, self.n_points) };
                 points = poisson_disk(self.space, &params)?;
             }
-            None => points = start(method, self.space, self.n_points, seed)?,
+            None => points = begin(method, self.space, self.n_points, seed)?,
         }
-        let seconds = begin.elapsed().as_secs_f64();
+        let seconds = clock.elapsed().as_secs_f64();
         if report.as_ref().is_some_and(|report| report.outcome == Outcome::Cancelled) {
             return Ok(None);
         }
@@ -131,12 +137,12 @@ impl Runner<'_> {
     }
 }
 
-/// Of many points those of a corner: a small picture shows no more.
-fn excerpt(points: &PointSet) -> anyhow::Result<PointSet> {
+/// Of many points those of a corner: a small picture shows no more. `None` where that is lost in rounding.
+fn excerpt(points: &PointSet) -> Option<PointSet> {
     const MOST: f64 = 600.0;
     let share = (MOST / points.n_points() as f64).min(1.0).sqrt();
     let ([x, y], [width, height]) = (points.space().origin(), points.space().size().map(|side| share * side));
-    let corner = evenly::Rectangle::new([x, y], [width, height])?;
+    let corner = Rectangle::new([x, y], [width, height]).ok()?;
     let positions = points.positions().iter().copied().filter(|p| p[0] <= x + width && p[1] <= y + height).collect();
-    Ok(PointSet::new(corner, positions)?)
+    PointSet::new(corner, positions).ok()
 }

@@ -14,11 +14,11 @@ use glam::DVec2;
 use serde::Serialize;
 
 use self::lbfgs::{Memory, dot};
-use super::prepare::{Prepared, keep_distinct, prepare};
-use super::relax::Passes;
+use super::prepare::{keep_distinct, triangulated, validate_iterations};
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
+use crate::space::Domain;
 use crate::triangulation::LiveMesh;
 
 /// What [`cvt`] can be told.
@@ -49,7 +49,7 @@ impl CvtParams {
                 expected: "0 or more, and finite",
             });
         }
-        Passes { n_passes: self.iterations, seed: 0 }.validate()
+        validate_iterations(self.iterations)
     }
 }
 
@@ -79,12 +79,8 @@ const LONGEST: f64 = 0.25;
 pub fn cvt(points: &mut PointSet, params: &CvtParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
     let mut report = Report::new("cvt", points.n_points());
-    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, &mut report, run)? else { return Ok(report) };
-    run.enter(Phase::Triangulate);
-    let mut mesh = LiveMesh::new(&domain, positions, order, spacing)?;
-    report.triangulations = 1;
-    run.enter(Phase::Optimize);
-    let mut state = State::of(&mut mesh);
+    let Some((domain, mut mesh)) = triangulated(points, &mut report, run)? else { return Ok(report) };
+    let mut state = State::of(&mut mesh)?;
     let mut memory = Memory::default();
     report.energy.push(state.energy);
     report.outcome = loop {
@@ -97,7 +93,7 @@ pub fn cvt(points: &mut PointSet, params: &CvtParams, run: &mut RunContext) -> R
         if run.is_cancelled() {
             break Outcome::Cancelled;
         }
-        let Some(after) = descend(&mut mesh, &mut memory, &state, &mut report)? else {
+        let Some(after) = descend(&mut mesh, &domain, &mut memory, &state, &mut report)? else {
             // Nothing falls any more, to within rounding.
             break Outcome::Converged;
         };
@@ -124,7 +120,7 @@ struct State {
 }
 
 impl State {
-    fn of(mesh: &mut LiveMesh) -> Self {
+    fn of(mesh: &mut LiveMesh) -> Result<Self, Error> {
         /// The energy of a cell of the hexagonal lattice: 5 / (24 sqrt(3)).
         const HEXAGON: f64 = 0.120_281_306_081_232_4;
         let cells = mesh.look(|star, spokes| {
@@ -132,20 +128,20 @@ impl State {
             let to_centroid: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
             let energy = star.second_moment();
             (energy, star.measure_cell(), to_centroid)
-        });
+        })?;
         let n = cells.len() as f64;
         let scale = 1.0 / mesh.spacing();
-        Self {
+        Ok(Self {
             places: mesh.points(),
             energy: cells.iter().map(|cell| cell.0).sum::<f64>() / (n * HEXAGON),
             gradient: cells.iter().map(|&(_, area, way)| -2.0 * area * scale * way).collect(),
             unrest: scale * (cells.iter().map(|cell| cell.2.length_squared()).sum::<f64>() / n).sqrt(),
-        }
+        })
     }
 }
 
 /// Makes a step that lowers the energy: along the direction of L-BFGS, or else of Lloyd's method. `None` where neither does.
-fn descend(mesh: &mut LiveMesh, memory: &mut Memory, before: &State, report: &mut Report) -> Result<Option<State>, Error> {
+fn descend(mesh: &mut LiveMesh, domain: &Domain, memory: &mut Memory, before: &State, report: &mut Report) -> Result<Option<State>, Error> {
     /// Half the inverse of the mean cell's area: of a cell of that size Lloyd's step.
     const LLOYD: f64 = 0.577_350_269_189_625_8;
     loop {
@@ -157,12 +153,12 @@ fn descend(mesh: &mut LiveMesh, memory: &mut Memory, before: &State, report: &mu
             let length = 0.5f64.powi(halving as i32);
             mesh.move_all(&direction.iter().map(|&step| length * mesh.spacing() * step).collect::<Vec<DVec2>>());
             report.triangulations += usize::from(mesh.mend()?);
-            let after = State::of(mesh);
+            let after = State::of(mesh)?;
             // In the energy's units: HEXAGON a point.
             let enough = ARMIJO * length * slope / (0.12 * before.places.len() as f64);
             if after.energy <= before.energy + enough && after.energy < before.energy {
                 // What was asked for is not always what was done.
-                let by = before.places.iter().zip(&after.places).map(|(&a, &b)| mesh.domain().spoke(a, b) / mesh.spacing()).collect();
+                let by = before.places.iter().zip(&after.places).map(|(&a, &b)| domain.spoke(a, b) / mesh.spacing()).collect();
                 let change = before.gradient.iter().zip(&after.gradient).map(|(&a, &b)| b - a).collect();
                 memory.remember(by, change);
                 return Ok(Some(after));

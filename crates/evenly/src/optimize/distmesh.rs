@@ -10,7 +10,8 @@
 
 use serde::Serialize;
 
-use super::relax::{Passes, relax};
+use super::prepare::validate_iterations;
+use super::relax::relax;
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
@@ -53,11 +54,7 @@ impl DistMeshParams {
         if !(self.tolerance >= 0.0 && self.tolerance.is_finite()) {
             return invalid("tolerance", self.tolerance, "0 or more, and finite");
         }
-        self.passes().validate()
-    }
-
-    fn passes(&self) -> Passes {
-        Passes { n_passes: self.iterations, seed: self.seed }
+        validate_iterations(self.iterations)
     }
 }
 
@@ -69,7 +66,7 @@ impl DistMeshParams {
 pub fn distmesh(points: &mut PointSet, params: &DistMeshParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
     let rule = Springs { length: params.pressure, step: params.step, tolerance: params.tolerance };
-    relax("distmesh", &rule, points, &params.passes(), run)
+    relax("distmesh", &rule, points, params.iterations, params.seed, run)
 }
 
 /// Goes where the springs push.

@@ -10,7 +10,8 @@
 
 use serde::Serialize;
 
-use super::relax::{Passes, relax};
+use super::prepare::validate_iterations;
+use super::relax::relax;
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
@@ -46,11 +47,7 @@ impl LloydParams {
                 expected: "0 or more, and finite",
             });
         }
-        self.passes().validate()
-    }
-
-    fn passes(&self) -> Passes {
-        Passes { n_passes: self.iterations, seed: self.seed }
+        validate_iterations(self.iterations)
     }
 }
 
@@ -71,7 +68,7 @@ impl LloydParams {
 /// ```
 pub fn lloyd(points: &mut PointSet, params: &LloydParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
-    relax("lloyd", &ToCentroid { tolerance: params.tolerance }, points, &params.passes(), run)
+    relax("lloyd", &ToCentroid { tolerance: params.tolerance }, points, params.iterations, params.seed, run)
 }
 
 /// Goes to the centroid, if it is farther than the tolerance.

@@ -18,16 +18,14 @@ use serde::Serialize;
 
 use self::local_ratio::local_ratio;
 use self::nelder_mead::minimize;
-use super::prepare::{Prepared, keep_distinct, prepare};
-use super::relax::Passes;
-use super::targets::{Targets, UnmetTarget, beta_miss, unmet_beta, validate_beta};
+use super::prepare::{keep_distinct, triangulated, validate_iterations};
+use super::targets::{Targets, UnmetTarget, beta_miss, is_lost_to_rounding, unmet_beta, validate_beta};
 use crate::error::Error;
 use crate::measure::Measures;
 use crate::points::PointSet;
-use crate::run::{Outcome, Phase, Report, RunContext};
+use crate::run::{Outcome, Report, RunContext};
 use crate::star::{Rule, Star};
-use crate::sweep::{Ending, Order, Plan, Schedule, Sweep};
-use crate::triangulation::LiveMesh;
+use crate::sweep::{Ending, Order, Plan, Sweep};
 
 /// What [`opt_beta`] can be told.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -64,7 +62,7 @@ impl OptBetaParams {
             let value = self.damping.unwrap_or(f64::NAN).to_string();
             return Err(Error::InvalidParameter { name: "damping", value, expected: "positive, and 1 at most" });
         }
-        Passes { n_passes: self.iterations, seed: 0 }.validate()
+        validate_iterations(self.iterations)
     }
 }
 
@@ -99,24 +97,13 @@ impl Targets for OptBetaParams {
 pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
     let mut report = Report::new("opt-beta", points.n_points());
-    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, &mut report, run)? else { return Ok(report) };
-    run.enter(Phase::Triangulate);
-    let mut sweep = Sweep::new(LiveMesh::new(&domain, positions, order, spacing)?);
-    report.triangulations = 1;
-    run.enter(Phase::Optimize);
+    let Some((domain, mesh)) = triangulated(points, &mut report, run)? else { return Ok(report) };
+    let mut sweep = Sweep::new(mesh);
     let damping = params.damping.unwrap_or(if params.beta > LOOSE { 0.7 } else { 1.0 });
-    let mut plan = Plan {
-        schedule: Schedule::InTurn,
-        order: Order::Rows,
-        max_passes: 0,
-        seed: 0,
-        keeps_best: false,
-        ends_if_diverging: false,
-        ends_if_stuck: false,
-    };
+    let mut plan = Plan { order: Order::Rows, ..Plan::of_passes(params.iterations, 0) };
 
     // Sweeps, until beta is reached; what comes in may have reached it.
-    let mut best = (beta(&mut sweep), sweep.places());
+    let mut best = (beta(&mut sweep)?, sweep.places());
     report.energy.push(best.0);
     report.outcome = loop {
         if best.0 <= params.beta {
@@ -130,7 +117,7 @@ pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunCont
         if ending == Ending::Cancelled {
             break Outcome::Cancelled;
         }
-        let reached = beta(&mut sweep);
+        let reached = beta(&mut sweep)?;
         report.energy.push(reached);
         if reached < best.0 {
             best = (reached, sweep.places());
@@ -142,13 +129,16 @@ pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunCont
     let (order, _) = sweep.into_last();
     points.place(&domain, &order, &best.1);
     keep_distinct(points);
+    if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
+        report.outcome = Outcome::LostToRounding;
+    }
     report.note_limit();
     Ok(report)
 }
 
-fn beta(sweep: &mut Sweep) -> f64 {
-    let [distance, radius] = sweep.distance_and_radius();
-    radius / distance
+fn beta(sweep: &mut Sweep) -> Result<f64, Error> {
+    let [distance, radius] = sweep.distance_and_radius()?;
+    Ok(radius / distance)
 }
 
 /// Goes where its own cell's ratio is least.

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::points::{PointSet, make_distinct, separate};
 use crate::run::{Phase, Report, RunContext};
 use crate::space::Domain;
+use crate::triangulation::LiveMesh;
 
 /// Distinct points in normalised coordinates.
 pub(super) struct Prepared {
@@ -37,6 +38,28 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
     let order = separated.order;
     let positions = order.iter().map(|&index| positions[index as usize]).collect();
     Ok(Some(Prepared { domain, spacing, positions, order }))
+}
+
+/// Distinct points, and a mesh of them that is ready for moves; `None` for fewer than three points, which stay.
+///
+/// # Errors
+/// As [`prepare`]; [`Error::Degenerate`] where they cannot be triangulated.
+pub(super) fn triangulated(points: &PointSet, report: &mut Report, run: &mut RunContext) -> Result<Option<(Domain, LiveMesh)>, Error> {
+    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, report, run)? else { return Ok(None) };
+    run.enter(Phase::Triangulate);
+    let mesh = LiveMesh::new(&domain, positions, order, spacing)?;
+    report.triangulations = 1;
+    run.enter(Phase::Optimize);
+    Ok(Some((domain, mesh)))
+}
+
+/// # Errors
+/// [`Error::InvalidParameter`] for no iterations.
+pub(super) fn validate_iterations(iterations: usize) -> Result<(), Error> {
+    if iterations == 0 {
+        return Err(Error::InvalidParameter { name: "iterations", value: "0".into(), expected: "1 or more" });
+    }
+    Ok(())
 }
 
 /// Moves apart what rounding to input units has brought together: points much nearer than the spacing.

@@ -22,15 +22,14 @@ use serde::Serialize;
 
 use self::frontier::{Known, nearest_known};
 use self::rule::PushPull;
-use super::prepare::{Prepared, keep_distinct, prepare};
-use super::targets::{ROUNDING, Targets, UnmetTarget};
+use super::prepare::{keep_distinct, triangulated};
+use super::targets::{ROUNDING, Targets, UnmetTarget, is_lost_to_rounding};
 use crate::error::Error;
 use crate::measure::{Measures, measure};
 use crate::points::PointSet;
-use crate::run::{Outcome, Phase, Report, RunContext};
+use crate::run::{Outcome, Report, RunContext};
 use crate::space::Space;
-use crate::sweep::{Ending, Order, Plan, Schedule, Sweep};
-use crate::triangulation::LiveMesh;
+use crate::sweep::{Ending, Plan, Schedule, Sweep};
 
 /// What [`push_pull`] can be told: the targets, each of which may be left out, and how to go for them.
 ///
@@ -244,19 +243,13 @@ pub(super) fn push_and_pull(
     report: &mut Report,
 ) -> Result<(), Error> {
     // Distinct points, and their Delaunay triangulation.
-    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, report, run)? else { return Ok(()) };
-    run.enter(Phase::Triangulate);
-    let mut sweep = Sweep::new(LiveMesh::new(&domain, positions, order, spacing)?);
-    report.triangulations = 1;
-    run.enter(Phase::Optimize);
+    let Some((domain, mesh)) = triangulated(points, report, run)? else { return Ok(()) };
+    let mut sweep = Sweep::new(mesh);
     let mut plan = Plan {
         schedule: params.schedule,
-        order: Order::Shuffled,
-        max_passes: params.pass_limit(points.n_points()),
-        seed: params.seed,
         keeps_best: true,
         ends_if_diverging: params.relaxation > params.safe_relaxation(),
-        ends_if_stuck: false,
+        ..Plan::of_passes(params.pass_limit(points.n_points()), params.seed)
     };
 
     // Of targets that are not known to be reached, first the nearest that are.
@@ -324,14 +317,6 @@ fn settle(
     sweep.return_to_best()?;
     report.triangulations += 1;
     sweep.run(&rule, &Plan { ends_if_diverging: false, ..*plan }, run, report)
-}
-
-/// Whether points that have reached the targets miss them where f64 are coarse.
-fn is_lost_to_rounding(points: &PointSet, params: &PushPullParams) -> bool {
-    /// In spacings: finer numbers do not show in any measure.
-    const COARSE: f64 = 1e-8;
-    let is_coarse = points.space().resolution() > COARSE * points.hex_spacing();
-    is_coarse && measure(points).is_ok_and(|measures| !params.unmet(&measures).is_empty())
 }
 
 /// Of the start and some states, that which misses a target by least, and its measures.

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::measure::Measures;
+use crate::measure::{Measures, measure};
+use crate::points::PointSet;
 use crate::space::Space;
 
 /// What a method was asked to reach.
@@ -33,6 +34,14 @@ pub struct UnmetTarget {
 
 /// What a measure may miss its target by, to rounding.
 pub(super) const ROUNDING: f64 = 1e-6;
+
+/// Whether points that have reached the targets miss them after rounding to input units, where f64 are coarse.
+pub(super) fn is_lost_to_rounding(points: &PointSet, targets: &dyn Targets) -> bool {
+    /// In spacings: finer numbers do not show in any measure.
+    const COARSE: f64 = 1e-8;
+    let is_coarse = points.space().resolution() > COARSE * points.hex_spacing();
+    is_coarse && measure(points).is_ok_and(|measures| !targets.unmet(&measures).is_empty())
+}
 
 /// # Errors
 /// [`Error::InvalidParameter`] for a ratio outside [0.578, 2].

@@ -74,7 +74,8 @@ impl WellSpacedParams {
 
     /// One distance and one radius for all.
     fn targets(&self) -> PushPullParams {
-        let Way { kappa, relaxation, capacity_tolerance, .. } = *WAYS.iter().find(|way| self.beta >= way.beta).unwrap_or(&WAYS[0]);
+        let [.., last] = &WAYS;
+        let &Way { kappa, relaxation, capacity_tolerance, .. } = WAYS.iter().find(|way| self.beta >= way.beta).unwrap_or(last);
         // A generous ratio needs no distance beyond the hexagonal lattice's.
         let distance = (kappa / (3f64.sqrt() * self.beta)).sqrt().min(1.0);
         PushPullParams {

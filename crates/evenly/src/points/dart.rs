@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use super::bins::Bins;
 use super::point_set::PointSet;
+use super::poisson_disk::{rounding_margin, validate_spacing};
 use super::random::Random;
 use crate::error::Error;
 use crate::space::{Domain, Space};
@@ -46,28 +47,35 @@ pub fn dart(space: impl Into<Space>, params: &DartParams) -> Result<PointSet, Er
     params.validate(&space)?;
     let domain = space.domain();
     let input_to_domain = 1.0 / domain.restore_length(1.0);
-    let widest = domain.hex_spacing(1);
+    let widest = domain.hex_spacing(1).max(domain.size.max_element());
     let mut spacing = params.spacing.map_or(widest, |spacing| spacing * input_to_domain);
-    let mut darts = Darts { random: Random::new(params.seed, 3), bins: Bins::new(&domain, spacing), domain };
+    let mut darts = Darts { random: Random::new(params.seed, 3), bins: Bins::new(&domain, 1.1 * spacing), domain };
     let mut bin = spacing;
     while params.n_points.is_none_or(|n| darts.bins.places().len() < n) {
-        if darts.throw(spacing, params.tries) {
+        // Far from 0 rounding brings points nearer.
+        let distance = spacing * (1.0 + rounding_margin(&space, domain.restore_length(spacing)));
+        if darts.throw(distance, params.tries) {
             continue;
         }
         if params.spacing.is_some() {
             break;
         }
         spacing *= SHRINKAGE;
+        // Bins must be as wide as the distance that is asked for, which is a little more.
         if spacing < 0.5 * bin {
             bin = spacing;
-            darts.rebin(bin);
+            darts.rebin(1.1 * bin);
         }
     }
     Ok(PointSet::from_normalized(space, darts.bins.places().iter().copied()))
 }
 
 impl DartParams {
-    fn validate(&self, space: &Space) -> Result<(), Error> {
+    /// Checks the parameters, as [`dart`] does before it begins.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn validate(&self, space: &Space) -> Result<(), Error> {
         let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
         if self.tries == 0 {
             return invalid("tries", "0".into(), "1 or more");
@@ -76,7 +84,7 @@ impl DartParams {
             (None, None) => invalid("spacing", "not given".into(), "given, or the number of points"),
             (_, Some(spacing)) if !(spacing > 0.0 && spacing.is_finite()) => invalid("spacing", spacing.to_string(), "positive and finite"),
             (n_points, Some(spacing)) => {
-                PointSet::validate_spacing(space, spacing)?;
+                validate_spacing(space, spacing)?;
                 PointSet::validate(space, n_points.unwrap_or(1))
             }
             (Some(n_points), None) => PointSet::validate(space, n_points),
@@ -92,11 +100,11 @@ struct Darts {
 
 impl Darts {
     /// Throws until a dart stays; whether one of so many did.
-    fn throw(&mut self, spacing: f64, tries: usize) -> bool {
+    fn throw(&mut self, distance: f64, tries: usize) -> bool {
         for _ in 0..tries {
             let x = self.random.unit();
             let place = self.domain.land(DVec2::new(x, self.random.unit()) * self.domain.size);
-            if self.bins.near(place).all(|(_, way)| way.length_squared() >= spacing * spacing) {
+            if self.bins.near(place).all(|(_, way)| way.length_squared() >= distance * distance) {
                 self.bins.push(place);
                 return true;
             }

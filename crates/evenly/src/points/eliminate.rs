@@ -3,7 +3,8 @@
 //! Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", Computer Graphics Forum 34(2), 2015, doi 10.1111/cgf.12538, with its
 //! constants. What is left stands in the paper's progressive order: the first half, the first quarter and so on are spread evenly too.
 //!
-//! What differs from the paper: points are found in bins, not in a kd-tree. Cost: O(m log m) for m points.
+//! What differs from the paper: points are found in bins, not in a kd-tree; in a domain that is narrower than the spacing, distances are those of a row.
+//! Cost: O(m log m) for m points that are a fixed multiple of n, and about evenly spread; more of them have more neighbours.
 
 use std::collections::BinaryHeap;
 
@@ -22,6 +23,8 @@ pub const CANDIDATES_A_POINT: usize = 5;
 const ALPHA: i32 = 8;
 const BETA: f64 = 0.65;
 const GAMMA: f64 = 1.5;
+/// Odd, so that no two numbers have the same multiple in 32 bits; their order is about random.
+const SPREAD: u32 = 0x9e37_79b1;
 
 /// `n_points` of the `candidates`, spread evenly, in progressive order.
 ///
@@ -60,9 +63,10 @@ pub fn eliminate(candidates: &PointSet, n_points: usize) -> Result<PointSet, Err
 
 /// Takes points out until `n_points` are left; returns them in the order in which they went.
 fn thin(domain: &Domain, places: &[DVec2], left: &mut Vec<u32>, n_points: usize) -> Vec<u32> {
-    // Twice the paper's r_max and r_min.
-    let farthest = domain.hex_spacing(n_points);
-    let nearest = farthest * (1.0 - (n_points as f64 / left.len() as f64).powf(GAMMA)) * BETA;
+    // Twice the paper's r_max and r_min. A row of points has another spacing, and room enough to need no r_min.
+    let (spacing, of_row) = (domain.hex_spacing(n_points), domain.size.max_element() / n_points as f64);
+    let farthest = spacing.max(of_row);
+    let nearest = if of_row > spacing { 0.0 } else { farthest * (1.0 - (n_points as f64 / left.len() as f64).powf(GAMMA)) * BETA };
     let mut bins = Bins::new(domain, farthest);
     left.iter().for_each(|&index| bins.push(places[index as usize]));
     let weight =
@@ -72,13 +76,14 @@ fn thin(domain: &Domain, places: &[DVec2], left: &mut Vec<u32>, n_points: usize)
     let mut is_left = vec![true; left.len()];
     let mut weights: Vec<f64> = (0..left.len() as u32).map(|k| near(k).map(|(_, way)| weight(way.length_squared())).sum()).collect();
     // Weights only fall, so what is on top with a weight that is not its own any more goes back down.
-    let key = |weight: f64, k: u32| (weight.max(0.0).to_bits(), std::cmp::Reverse(k));
+    // Equal weights go in no order of place.
+    let key = |weight: f64, k: u32| ((weight.max(0.0) + 0.0).to_bits(), k.wrapping_mul(SPREAD), k);
     let mut heap: BinaryHeap<_> = weights.iter().zip(0..).map(|(&weight, k)| key(weight, k)).collect();
     let mut gone = Vec::with_capacity(left.len() - n_points);
     while gone.len() < left.len() - n_points
         && let Some(top) = heap.pop()
     {
-        let k = top.1.0;
+        let k = top.2;
         let now = key(weights[k as usize], k);
         if now != top {
             heap.push(now);

@@ -96,21 +96,6 @@ impl PointSet {
         moved
     }
 
-    /// Checks that as many points can be made as fit with this spacing, positive and finite, in input units.
-    pub(crate) fn validate_spacing(space: &Space, spacing: f64) -> Result<(), Error> {
-        // Never more than the hexagonal lattice and its border.
-        let [columns, rows] = space.size().map(|side| side / spacing + 1.0);
-        let most = (columns * rows * 2.0 / 3f64.sqrt()).ceil();
-        if most > MAX_POINTS as f64 {
-            return Err(Error::TooManyPoints(most.min(1e15) as usize, MAX_POINTS));
-        }
-        let resolution = space.resolution();
-        if spacing < 64.0 * resolution {
-            return Err(Error::TooFine { n_points: most as usize, domain: space.to_string(), spacing, resolution });
-        }
-        Ok(())
-    }
-
     /// Checks that a set of so many points can be made.
     pub(crate) fn validate(space: &Space, n_points: usize) -> Result<(), Error> {
         if n_points == 0 {

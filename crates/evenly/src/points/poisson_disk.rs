@@ -9,7 +9,7 @@
 //! proportional to the area of its squares, and a cell may throw once no cell around it has an earlier time. The points are distributed as those of darts
 //! thrown one after the other at the whole domain, but are found in the order in which memory lies.
 //!
-//! Cost: O(n), some six darts a point. The result is maximal to within 1e-13 of the spacing.
+//! Cost: O(n), some six darts a point. The result is maximal to within 1e-13 of the spacing, or to what coordinates far from 0 are rounded by.
 
 mod cells;
 
@@ -17,7 +17,7 @@ use glam::DVec2;
 
 use self::cells::Cells;
 use super::eliminate::eliminate;
-use super::point_set::PointSet;
+use super::point_set::{MAX_POINTS, PointSet};
 use super::random::Random;
 use crate::error::Error;
 use crate::space::{Domain, GRID, Space, snap};
@@ -34,20 +34,22 @@ pub struct PoissonDiskParams {
     pub seed: u64,
 }
 
+/// The coverage radius is at most so many times the spacing: all points in its reach are looked at for each dart.
+const LOOSEST: f64 = 8.0;
+
 impl PoissonDiskParams {
-    /// The spacing with which about `n_points` points fit, and seed 0: on a torus sqrt(0.697 A / n), in a rectangle a little more, as its border takes more
-    /// points. How many there will be is chance, with a standard deviation of 0.23 sqrt(n).
+    /// The spacing with which about `n_points` points fit, and seed 0: on a torus sqrt(0.697 A / n), but no more than its shorter side, in a rectangle a
+    /// little more, as its border takes more points. How many there will be is chance: in a domain that is many spacings wide with a standard
+    /// deviation of 0.23 sqrt(n).
     pub fn for_about(space: &Space, n_points: usize) -> Self {
-        /// The points of a maximal set in an area of one squared spacing, and further ones on a border as long as the spacing.
-        const DENSITY: f64 = 0.697;
-        const ON_BORDER: f64 = 0.228;
         // In square roots of the area over n, which do not underflow.
         let unit = space.hex_spacing(n_points.max(1)) * 0.75f64.sqrt().sqrt();
         let [width, height] = space.size();
         let border = if space.is_periodic() { 0.0 } else { ON_BORDER * 2.0 * (width + height) / unit / n_points.max(1) as f64 };
         // n = DENSITY A / spacing^2 + ON_BORDER perimeter / spacing.
         let spacing = unit * 0.5 * (border + (border * border + 4.0 * DENSITY).sqrt());
-        Self { spacing, coverage: None, seed: 0 }
+        let widest = if space.is_periodic() { width.min(height) } else { f64::INFINITY };
+        Self { spacing: spacing.min(widest), coverage: None, seed: 0 }
     }
 
     /// Checks the parameters, as [`poisson_disk`] does before it begins.
@@ -62,11 +64,37 @@ impl PoissonDiskParams {
         if space.is_periodic() && self.spacing > f64::min(space.size()[0], space.size()[1]) {
             return invalid("spacing", self.spacing, "at most the torus' shorter side, or a point is too near to itself");
         }
-        if let Some(radius) = self.coverage.filter(|&radius| !(radius >= self.spacing && radius.is_finite())) {
-            return invalid("coverage", radius, "the spacing or more, and finite");
+        if let Some(radius) = self.coverage.filter(|&radius| !(radius >= self.spacing && radius <= LOOSEST * self.spacing)) {
+            return invalid("coverage", radius, "the spacing or more, and 8 times that at most");
         }
-        PointSet::validate_spacing(space, self.spacing)
+        validate_spacing(space, self.spacing)
     }
+}
+
+/// The points of a maximal set in an area of one squared spacing, and further ones on a border as long as the spacing.
+const DENSITY: f64 = 0.697;
+const ON_BORDER: f64 = 0.228;
+/// What rounding may take from a length, relative to it.
+const ROUNDING: f64 = 1e-15;
+
+/// Checks that as many points can be made as fit at random with this spacing, positive and finite, in input units.
+pub(super) fn validate_spacing(space: &Space, spacing: f64) -> Result<(), Error> {
+    let [width, height] = space.size().map(|side| side / spacing);
+    let most = DENSITY * width * height + ON_BORDER * 2.0 * (width + height);
+    // Chance has its way with the last of them.
+    if most > 1.001 * MAX_POINTS as f64 {
+        return Err(Error::TooManyPoints(most.min(1e15) as usize, MAX_POINTS));
+    }
+    let resolution = space.resolution();
+    if spacing < 64.0 * resolution {
+        return Err(Error::TooFine { n_points: most as usize, domain: space.to_string(), spacing, resolution });
+    }
+    Ok(())
+}
+
+/// By which part of itself a spacing must be exceeded, lest rounding to input units brings points nearer.
+pub(super) fn rounding_margin(space: &Space, spacing: f64) -> f64 {
+    ROUNDING + 2.0 * space.resolution() / spacing
 }
 
 /// Random points that stand in rows of cells: no two nearer than the spacing, and no place of the domain, its border included, farther from all of
@@ -110,10 +138,7 @@ pub fn poisson_disk_of(space: impl Into<Space>, n_points: usize, seed: u64) -> R
     // Three standard deviations.
     let mut surplus = 1 + (0.7 * (n_points as f64).sqrt()) as usize;
     loop {
-        let params = PoissonDiskParams::for_about(&space, n_points + surplus);
-        // Of few points on a torus each may be near to itself.
-        let spacing = if space.is_periodic() { params.spacing.min(space.size()[0].min(space.size()[1])) } else { params.spacing };
-        let points = poisson_disk(space, &PoissonDiskParams { spacing, seed, ..params })?;
+        let points = poisson_disk(space, &PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, n_points + surplus) })?;
         if points.n_points() >= n_points {
             return eliminate(&points, n_points);
         }
@@ -148,8 +173,6 @@ struct Darts {
     divided: Vec<DVec2>,
 }
 
-/// What rounding may take from a length, relative to it.
-const ROUNDING: f64 = 1e-15;
 /// Squares smaller than this part of the spacing are taken for covered.
 const SMALLEST: f64 = 1e-13;
 /// The last level whose squares are kept: they are eight in a row.
@@ -162,9 +185,9 @@ impl Darts {
         let scale = 1.0 / domain.restore_length(1.0);
         let spacing = params.spacing * scale;
         let coverage = params.coverage.unwrap_or(params.spacing) * scale;
-        let margin = ROUNDING + 2.0 * space.resolution() / params.spacing;
+        let margin = rounding_margin(space, params.spacing);
         let slack = (coverage - spacing) * (1.0 - ROUNDING);
-        let cells = Cells::new(domain, spacing, coverage + slack);
+        let cells = Cells::new(domain, spacing, (coverage + slack) * (1.0 + margin));
         let n_cells = cells.points.len();
         let mut darts = Self {
             cells,

@@ -38,8 +38,10 @@ pub(crate) enum Order {
 pub(crate) struct Plan {
     pub schedule: Schedule,
     pub order: Order,
-    /// The sweep ends after so many passes in any case.
+    /// The run ends after so many passes in any case, those of earlier runs included.
     pub max_passes: usize,
+    /// So many passes may be made in all, for the progress.
+    pub total_passes: usize,
     /// The order of visits depends on it, on the pass and on the cell.
     pub seed: u64,
     /// Whether the state with the least unrest is kept; otherwise the last one counts.
@@ -48,6 +50,22 @@ pub(crate) struct Plan {
     pub ends_if_diverging: bool,
     /// Whether it ends where no state better than the best has come for long.
     pub ends_if_stuck: bool,
+}
+
+impl Plan {
+    /// So many passes, from which the last state counts.
+    pub fn of_passes(n_passes: usize, seed: u64) -> Self {
+        Self {
+            schedule: Schedule::InTurn,
+            order: Order::Shuffled,
+            max_passes: n_passes,
+            total_passes: n_passes,
+            seed,
+            keeps_best: false,
+            ends_if_diverging: false,
+            ends_if_stuck: false,
+        }
+    }
 }
 
 /// How a sweep has ended.
@@ -135,7 +153,7 @@ impl Sweep {
             if plan.keeps_best {
                 self.keep_best(&work, report.iterations);
             }
-            self.show(run, report);
+            self.show(plan, run, report);
             // Flips, and visits put off halfway, leave dirt that the pass has not seen.
             let is_still = work.n_unstable == 0 && (0..self.mesh.n_points() as u32).all(|v| !self.mesh.is_dirty(v));
             let n_late_flips = if is_still { self.mesh.legalize() } else { 0 };
@@ -228,7 +246,10 @@ impl Sweep {
     }
 
     /// As [`LiveMesh::distance_and_radius`].
-    pub fn distance_and_radius(&mut self) -> [f64; 2] {
+    ///
+    /// # Errors
+    /// As there.
+    pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
         self.mesh.distance_and_radius()
     }
 
@@ -244,11 +265,12 @@ impl Sweep {
     }
 
     /// Unstable points become fewer about exponentially.
-    fn show(&mut self, run: &mut RunContext, report: &Report) {
+    fn show(&mut self, plan: &Plan, run: &mut RunContext, report: &Report) {
         let n_points = self.mesh.n_points() as f64;
         let stable_share = report.stable_share.last().copied();
         let n_unstable = n_points * (1.0 - stable_share.unwrap_or(0.0));
-        self.fraction = self.fraction.max(1.0 - (1.0 + n_unstable).ln() / (1.0 + n_points).ln());
+        let of_passes = report.iterations as f64 / plan.total_passes as f64;
+        self.fraction = self.fraction.max(1.0 - (1.0 + n_unstable).ln() / (1.0 + n_points).ln()).max(of_passes);
         run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share, fraction: self.fraction });
     }
 }
@@ -280,15 +302,7 @@ mod tests {
 
     fn smooth(space: Space, schedule: Schedule, n_threads: usize) -> (PointSet, Report) {
         let mut points = white(space, 3000, 5).unwrap();
-        let plan = Plan {
-            schedule,
-            order: Order::Shuffled,
-            max_passes: 30,
-            seed: 1,
-            keeps_best: true,
-            ends_if_diverging: false,
-            ends_if_stuck: false,
-        };
+        let plan = Plan { schedule, keeps_best: true, ..Plan::of_passes(30, 1) };
         let mut report = Report::new("smooth", 3000);
         let mut sweep = sweep(&points);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
@@ -321,15 +335,7 @@ mod tests {
         cancel.cancel();
         let mut sweep = sweep(&points);
         let mut report = Report::new("smooth", 100);
-        let plan = Plan {
-            schedule: Schedule::InTurn,
-            order: Order::Shuffled,
-            max_passes: 9,
-            seed: 0,
-            keeps_best: true,
-            ends_if_diverging: false,
-            ends_if_stuck: false,
-        };
+        let plan = Plan { keeps_best: true, ..Plan::of_passes(9, 0) };
         let ending = sweep.run(&Smooth, &plan, &mut RunContext::default().with_cancel(cancel), &mut report).unwrap();
         assert_eq!((ending, report.iterations), (Ending::Cancelled, 0));
         let mut after = points.clone();

@@ -11,6 +11,7 @@ use super::live::{LiveMesh, Outside};
 use super::shared::Territory;
 use super::spoke::Spoke;
 use super::walls::WallCell;
+use crate::error::Error;
 use crate::star::{Star, Wall, Wedge};
 
 /// The fewest points that a thread looks at in one go.
@@ -44,25 +45,29 @@ impl LiveMesh {
     }
 
     /// Looks at the stars of all points, in order.
-    pub fn look<T: Send>(&mut self, look: impl Fn(&mut Star, &[Spoke]) -> T + Sync) -> Vec<T> {
+    pub fn look<T: Send>(&mut self, look: impl Fn(&mut Star, &[Spoke]) -> T + Sync) -> Result<Vec<T>, Error> {
         self.legalize();
-        let (mesh, all) = (&*self, (0..self.n_points() as u32).collect::<Vec<u32>>());
-        let seen = all.par_iter().with_min_len(CHUNK).map_init(StarBuffer::default, |buffer, &v| {
+        if self.mend()? {
+            self.legalize();
+        }
+        let mesh = &*self;
+        let all = (0..self.n_points() as u32).into_par_iter().with_min_len(CHUNK);
+        let seen = all.map_init(StarBuffer::default, |buffer, v| {
             // With everything free, nothing lies outside.
             let _ = mesh.read(v, Territory::EVERYTHING, buffer);
             look(&mut buffer.star, &buffer.spokes)
         });
-        seen.collect()
+        Ok(seen.collect())
     }
 
     /// The smallest distance of two points and the largest circumradius, in spacings.
-    pub fn distance_and_radius(&mut self) -> [f64; 2] {
+    pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
         let seen = self.look(|star, _| {
             let neighbours = star.lengths.iter().zip(&star.is_mirror).filter(|(_, is_mirror)| !**is_mirror);
             let nearest = neighbours.map(|(&length, _)| length).fold(f64::INFINITY, f64::min);
             [nearest, (0..star.n_spokes()).map(|k| star.circumradius(k)).fold(0.0, f64::max)]
-        });
-        seen.into_iter().fold([f64::INFINITY, 0.0], |a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        })?;
+        Ok(seen.into_iter().fold([f64::INFINITY, 0.0], |a, b| [a[0].min(b[0]), a[1].max(b[1])]))
     }
 
     /// Moves all points, each by its own vector or as far as it gets.

@@ -28,8 +28,8 @@ impl Transplant {
     }
 }
 
-/// Steps of a walk to a place, beyond which it has lost its way.
-const MAX_STEPS: usize = 10_000;
+/// A walk that has taken so many steps more than there are triangles has lost its way.
+const SPARE_STEPS: usize = 100;
 /// The part of the way to a triangle's middle, or the domain's, by which a place is moved that lies on its border.
 const NUDGE: f64 = 1e-6;
 
@@ -70,12 +70,8 @@ impl LiveMesh {
         }
     }
 
-    /// Puts a point and its copies in at a place; `triangle` is one near there. In a mesh that is torn they are only said to be there.
+    /// Puts a point and its copies in at a place; `triangle` is one near there.
     pub fn put_in(&self, point: u32, place: DVec2, triangle: u32, work: &mut Transplant) {
-        if self.is_torn() {
-            self.mesh.set_position(point, self.domain.land(place));
-            return;
-        }
         let from = self.mesh.position(point);
         let mut near = self.split(point, self.domain.land(place), triangle, work);
         self.legalize_suspects(work);
@@ -130,7 +126,11 @@ impl LiveMesh {
 
     /// Puts `v` into the triangle at a place, and returns one of the three that come of it.
     fn split(&self, v: u32, place: DVec2, near: u32, work: &mut Transplant) -> u32 {
-        let (triangle, place) = self.locate(place, near, work);
+        let Some((triangle, place)) = self.locate(place, near, work) else {
+            self.mesh.set_position(v, place);
+            self.is_torn.store(true, Relaxed);
+            return near;
+        };
         self.mesh.set_position(v, place);
         let corners = self.corners(triangle);
         let across = [0, 1, 2].map(|k| self.mesh.twin(3 * triangle + k));
@@ -147,21 +147,21 @@ impl LiveMesh {
         triangle
     }
 
-    /// Walks to the triangle that holds a place; where that lies on an edge, the place is nudged.
-    fn locate(&self, mut place: DVec2, near: u32, work: &Transplant) -> (u32, DVec2) {
+    /// Walks to the triangle that holds a place; where that lies on an edge, the place is nudged. `None` if it is not found.
+    fn locate(&self, mut place: DVec2, near: u32, work: &Transplant) -> Option<(u32, DVec2)> {
         let mut triangle = near;
         while work.is_free(triangle) {
             triangle = (triangle + 1) % self.n_triangles() as u32;
         }
         // The way to a corner is the shortest at first; from there on the walk goes the same way round the torus.
         let (mut corner, mut way) = (0, self.spoke(place, self.corners(triangle)[0]));
-        for step in 0..MAX_STEPS {
+        for step in 0..self.n_triangles() + SPARE_STEPS {
             let vertices = self.corners(triangle);
             let from = self.mesh.position(vertices[corner]);
             let ways = vertices.map(|vertex| way + self.spoke(from, vertex));
             // Each time another edge is looked at first: a walk cannot go round in circles.
             let edges = [0, 1, 2].map(|k| (k + step) % 3);
-            let Some(k) = edges.into_iter().find(|&k| !is_left_turn(ways[k], ways[(k + 1) % 3])) else { return (triangle, place) };
+            let Some(k) = edges.into_iter().find(|&k| !is_left_turn(ways[k], ways[(k + 1) % 3])) else { return Some((triangle, place)) };
             if is_left_turn(ways[(k + 1) % 3], ways[k]) {
                 let twin = self.mesh.twin(3 * triangle + k as u32);
                 (triangle, corner, way) = (twin / 3, twin as usize % 3, ways[(k + 1) % 3]);
@@ -169,13 +169,14 @@ impl LiveMesh {
                 // In a rectangle the triangle may lie outside.
                 let is_periodic = self.domain.is_periodic;
                 let inwards = if is_periodic { (ways[0] + ways[1] + ways[2]) / 3.0 } else { 0.5 * self.domain.size - place };
+                let inwards = inwards.clamp_length_max(self.spacing);
                 let nudged = self.domain.land(place + NUDGE * (1.0 + step as f64) * inwards);
                 (corner, way) = (0, ways[0] - self.domain.spoke(place, nudged));
                 place = nudged;
             }
         }
         debug_assert!(false, "a walk has lost its way");
-        (triangle, place)
+        None
     }
 
     fn legalize_suspects(&self, work: &mut Transplant) {
@@ -227,7 +228,9 @@ mod tests {
                 let x = random.unit();
                 let place = domain.size * if is_grid { ((DVec2::new(x, random.unit()) * 16.0).floor() + 0.5) / 16.0 } else { DVec2::new(x, random.unit()) };
                 mesh.take_out(v, &mut work);
-                mesh.put_in(v, place, 0, &mut work);
+                if !mesh.is_torn() {
+                    mesh.put_in(v, place, 0, &mut work);
+                }
                 if mesh.mend().unwrap() {
                     continue;
                 }

@@ -27,6 +27,8 @@ pub(super) struct Gaps {
     buffer: StarBuffer,
     /// The gaps, and the points, where a point has been taken out.
     around: Vec<u32>,
+    /// How often the mesh was made anew.
+    pub n_rebuilt: usize,
 }
 
 /// No gap.
@@ -44,6 +46,7 @@ impl Gaps {
             work: Transplant::default(),
             buffer: StarBuffer::default(),
             around: Vec::new(),
+            n_rebuilt: 0,
         };
         gaps.measure_all();
         gaps
@@ -61,11 +64,25 @@ impl Gaps {
             self.mesh.put_in(point, place, gap.triangle, &mut self.work);
             self.note_changes();
         }
+        self.mend()?;
+        Ok(self.mesh.domain().spoke(from, self.mesh.position(point)).length())
+    }
+
+    /// The smallest distance of two points, in spacings.
+    pub fn smallest_distance(&mut self) -> Result<f64, Error> {
+        self.mesh.legalize();
+        self.mend()?;
+        Ok(self.mesh.distance_and_radius()?[0])
+    }
+
+    /// Where the mesh is torn, it is made anew, and all gaps are measured.
+    fn mend(&mut self) -> Result<(), Error> {
         if self.mesh.mend()? {
+            self.n_rebuilt += 1;
             self.work = Transplant::default();
             self.measure_all();
         }
-        Ok(self.mesh.domain().spoke(from, self.mesh.position(point)).length())
+        Ok(())
     }
 
     fn measure_all(&mut self) {
