@@ -430,6 +430,20 @@ fn methods_stand_side_by_side_in_every_kind_of_table() {
 }
 
 #[test]
+fn a_spectrum_comes_with_the_measures_where_it_is_asked_for() {
+    let shell = Shell::new();
+    shell.ok("generate -n 2000 --method lloyd -o a.txt");
+    let text = shell.ok("analyze a.txt --spectrum");
+    assert!(text.contains("effective_nyquist") && text.contains("oscillation") && !text.contains("radial_power"), "{text}");
+    let found: Value = serde_json::from_str(&shell.ok("analyze a.txt --spectrum --json")).unwrap();
+    assert_eq!(found["radial_power"].as_array().unwrap().len(), found["frequencies"].as_array().unwrap().len());
+    assert!(found["effective_nyquist"].as_f64().unwrap() > 0.85 && found["beta"].as_f64().unwrap() < 1.1);
+    assert!(!shell.ok("analyze a.txt --json").contains("effective_nyquist"));
+    shell.ok("generate -n 9 --method white -o few.txt");
+    assert!(shell.refused("analyze few.txt --spectrum").contains("too few points"));
+}
+
+#[test]
 fn text_that_pretends_to_be_numpy_is_still_read() {
     let shell = Shell::new();
     shell.write("text.npy", "0.1 0.2\n0.7 0.1\n0.5 0.9\n");

@@ -101,6 +101,9 @@ pub struct Analyze {
     /// Print the measures as JSON
     #[arg(long)]
     pub json: bool,
+    /// The radial power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON
+    #[arg(long)]
+    pub spectrum: bool,
     /// Draw the points, as .svg or .png
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::space::Domain;
 
 /// Points by the bin in which they lie.
-pub(super) struct Bins {
+pub(crate) struct Bins {
     domain: Domain,
     n_bins: [usize; 2],
     /// The last point that came into each bin, and for each point the one before it there.
