@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::points::{Bins, PointSet};
+use crate::points::{Bins, PointSet, hilbert_order};
 
 /// What [`radial_spectrum`] finds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -102,6 +102,8 @@ fn correlate(points: &PointSet, n_bins: usize) -> Result<Vec<f64>, Error> {
     /// Points whose pairs are counted in one go.
     const CHUNK: usize = 1 << 10;
     let (domain, positions) = points.normalized();
+    // Neighbours side by side in memory.
+    let positions: Vec<DVec2> = hilbert_order(&positions, domain.size).iter().map(|&k| positions[k as usize]).collect();
     let n_points = positions.len();
     let spacing = (domain.area() / n_points as f64).sqrt();
     let reach = n_bins as f64 / BINS as f64 * spacing;
