@@ -11,6 +11,8 @@ pub struct Comparison {
     pub command: String,
     pub space: Space,
     pub n_points: usize,
+    /// Whether it was interrupted, so that runs are missing.
+    pub is_interrupted: bool,
     /// What optimisers started from; `None` for points that were given.
     pub start: Option<String>,
     #[serde(rename = "methods")]
@@ -109,7 +111,8 @@ impl Comparison {
         let from = self.start.as_ref().map_or_else(|| "the points given".to_owned(), |start| format!("start {start}"));
         let kind = if self.space.is_periodic() { "torus" } else { "rectangle" };
         let most_runs = self.columns.iter().map(|column| column.runs.len()).max().unwrap_or_default();
-        format!("{} points, {kind} {}, {from}, {most_runs} runs: mean and standard deviation", self.n_points, self.space)
+        let missing = if self.is_interrupted { " (interrupted: runs are missing)" } else { "" };
+        format!("{} points, {kind} {}, {from}, {most_runs} runs{missing}: mean and standard deviation", self.n_points, self.space)
     }
 }
 

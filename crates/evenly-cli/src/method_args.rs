@@ -22,7 +22,7 @@ pub struct OptimizerArgs {
     /// By default 100 of lloyd and cvt, 200 of distmesh and opt-beta, 500 of procrustes and farthest-point, and 2000 of the others, more for more than 1000 points.
     #[arg(short, long, value_name = "I", allow_negative_numbers = true)]
     iterations: Option<usize>,
-    /// Targets, with the tolerance and relaxation that they need; the flags below change them one by one [default: balanced]
+    /// Targets, with the tolerance and relaxation that they need; the flags below change them one by one [default: balanced, unless one of them is given]
     #[arg(long, value_enum, help_heading = "Targets")]
     preset: Option<PresetArg>,
     /// No two points nearer than this many hexagonal spacings, up to 1; or off [default: the preset's; farthest-point: 0.9]
@@ -251,10 +251,10 @@ impl StartArgs {
         let params = self.spacing.map_or(estimated, |spacing| PoissonDiskParams { spacing, ..estimated });
         let points = poisson_disk(space, &PoissonDiskParams { coverage: self.coverage, ..params }).map_err(by_flag)?;
         let note = n_points.filter(|&n| n != points.n_points()).map(|n| {
-            let why = if self.coverage.is_some() {
-                "with a wider coverage fewer points are needed"
-            } else {
-                "a maximal set's number of points is chance"
+            let why = match self.coverage {
+                Some(_) => "with a wider coverage fewer points are needed",
+                None if n < points.n_points() / 2 => "on so narrow a torus the spacing cannot be wider",
+                None => "a maximal set's number of points is chance",
             };
             format!("{why}: {} for {n}, with a spacing of {:.6e}", points.n_points(), params.spacing)
         });

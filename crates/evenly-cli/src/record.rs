@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use evenly::{Measures, Report, Space, UnmetTarget};
+use evenly::{Measures, Report, Space, UnmetTarget, angle_bounds_deg};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -22,7 +22,7 @@ pub struct Record {
     /// Absent for fewer than three points, or all on one line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
-    /// Between which beta certifies all angles to lie; absent from 1 on.
+    /// Between which beta certifies all angles to lie; absent from 1 on, and without triangles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_bounds_deg: Option<[f64; 2]>,
     /// The targets that were not reached; absent for a method that has none.
@@ -32,6 +32,11 @@ pub struct Record {
 }
 
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// The angles between which beta certifies those of all triangles to lie, if there are any.
+pub fn certified_angles(measures: &Measures) -> Option<[f64; 2]> {
+    angle_bounds_deg(measures.beta).filter(|_| !measures.angle_rms_deg.is_nan())
+}
 
 /// How an output was made: version, command, seed.
 pub fn recipe(seed: Option<u64>) -> String {

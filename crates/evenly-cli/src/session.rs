@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, angle_bounds_deg, measure};
+use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
 use evenly_io::{Draw, Target, write_points};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -179,7 +179,7 @@ impl<'a> Session<'a> {
             parameters: self.optimizer.map(|optimizer| optimizer.parameters()),
             run,
             seconds: self.seconds,
-            angle_bounds_deg: measures.as_ref().and_then(|m| angle_bounds_deg(m.beta)),
+            angle_bounds_deg: measures.as_ref().and_then(record::certified_angles),
             measures,
             unmet,
             notes: self.notes,
@@ -223,9 +223,10 @@ impl<'a> Session<'a> {
                 m.min_distance, m.coverage_radius
             ));
         }
-        if let Some([least, most]) = measures.and_then(|m| angle_bounds_deg(m.beta)).filter(|bounds| bounds[1] <= 90.0) {
+        if let Some([least, most]) = measures.and_then(record::certified_angles).filter(|bounds| bounds[1] <= 90.0) {
+            let (which, whose) = if points.space().is_periodic() { ("", "all") } else { (" with its circumcentre inside", "all their") };
             say(format_args!(
-                "certificate: as beta is below 0.7071, no triangle is obtuse; all angles lie within {least:.2} and {most:.2} degrees"
+                "certificate: as beta is below 0.7071, no triangle{which} is obtuse; {whose} angles lie within {least:.2} and {most:.2} degrees"
             ));
         }
         if self.args.verbose {

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
 use clap::ArgMatches;
 use evenly::{CancelToken, Outcome, PointSet, PoissonDiskParams, Rectangle, RunContext, Space, measure, poisson_disk};
 use evenly_io::{Draw, Target, figure};
@@ -52,6 +52,9 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     let pool = session::pool(args.threads)?;
     let is_drawn = matches!(output, Some((Kind::Html, _)));
     let comparison = pool.install(|| runner.compare(&methods, is_drawn))?;
+    if comparison.columns.is_empty() {
+        bail!("no run was done, so there is nothing to compare");
+    }
     let text = |kind: Kind| kind.write(&comparison);
     match &output {
         Some((kind, target)) => target.write(text(*kind)?.as_bytes())?,
@@ -80,7 +83,7 @@ impl Runner<'_> {
             for index in 0..self.args.runs {
                 bar.set_message(method.name());
                 let seed = self.args.seed.wrapping_add(index.into());
-                let Some((run, points)) = self.run(method, seed)? else { break };
+                let Some((run, points)) = self.run(method, seed)? else { continue };
                 if is_drawn && index == 0 {
                     column.picture = excerpt(&points).and_then(|points| figure(&points, &[Draw::Points], &record::recipe(Some(seed))).ok());
                 }
@@ -93,10 +96,18 @@ impl Runner<'_> {
         }
         bar.finish_and_clear();
         let start = if self.given.is_some() { None } else { Some(self.start.name()) };
-        Ok(Comparison { version: record::VERSION, command: record::command(), space: self.space, n_points: self.n_points, start, columns })
+        Ok(Comparison {
+            version: record::VERSION,
+            command: record::command(),
+            space: self.space,
+            n_points: self.n_points,
+            is_interrupted: self.cancel.is_cancelled(),
+            start,
+            columns,
+        })
     }
 
-    /// One run of a method; `None` if it was interrupted.
+    /// One run of a method; `None` if it was interrupted, or has made what cannot be measured.
     fn run(&self, method: Method, seed: u64) -> anyhow::Result<Option<(Run, PointSet)>> {
         if self.cancel.is_cancelled() {
             return Ok(None);
@@ -129,7 +140,14 @@ impl Runner<'_> {
         if report.as_ref().is_some_and(|report| report.outcome == Outcome::Cancelled) {
             return Ok(None);
         }
-        let measures = measure(&points).with_context(|| method.name())?;
+        // What cannot be measured is said, and the others go on.
+        let measures = match measure(&points) {
+            Ok(measures) => measures,
+            Err(error) => {
+                say(format_args!("note: {}, seed {seed}: {error}", method.name()));
+                return Ok(None);
+            }
+        };
         let targets = optimizer.as_ref().and_then(|optimizer| optimizer.targets());
         let is_reached = targets.map(|targets| targets.unmet(&measures).is_empty());
         let iterations = report.map(|report| report.iterations);

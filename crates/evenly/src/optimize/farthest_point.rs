@@ -42,6 +42,8 @@ impl Default for FarthestPointParams {
     }
 }
 
+/// A run ends whose smallest distance has not grown in so many iterations.
+const LONG: usize = 50;
 /// After so many moves it is asked whether the run is cancelled.
 const ASKING: u32 = 1 << 12;
 /// Points that move no farther than this part of the spacing are at rest.
@@ -99,19 +101,25 @@ pub fn farthest_point(points: &mut PointSet, params: &FarthestPointParams, run: 
     let Some((domain, mesh)) = triangulated(points, &mut report, run)? else { return Ok(report) };
     let (n_points, spacing) = (points.n_points() as u32, mesh.spacing());
     let mut gaps = Gaps::new(mesh);
-    let is_met = |gaps: &mut Gaps| -> Result<bool, Error> {
-        let Some(wanted) = params.min_distance else { return Ok(false) };
-        Ok(gaps.smallest_distance()? >= wanted)
-    };
+    // The largest smallest distance so far, and after how many iterations it was reached.
+    let mut best = (0.0, 0);
     report.outcome = loop {
-        if is_met(&mut gaps)? {
-            break Outcome::Converged;
-        }
-        if report.iterations == params.iterations {
-            break if params.min_distance.is_some() { Outcome::IterationLimit } else { Outcome::IterationsDone };
-        }
         if run.is_cancelled() {
             break Outcome::Cancelled;
+        }
+        let distance = gaps.smallest_distance()?;
+        if params.min_distance.is_some_and(|wanted| distance >= wanted) {
+            break Outcome::Converged;
+        }
+        if distance > best.0 * (1.0 + STILL) {
+            best = (distance, report.iterations);
+        }
+        let is_stuck = report.iterations - best.1 >= LONG;
+        if is_stuck {
+            report.notes.push(format!("the smallest distance has not grown in the last {LONG} iterations"));
+        }
+        if is_stuck || report.iterations == params.iterations {
+            break if params.min_distance.is_some() { Outcome::IterationLimit } else { Outcome::IterationsDone };
         }
         let mut farthest = 0.0f64;
         for point in 0..n_points {
@@ -124,8 +132,8 @@ pub fn farthest_point(points: &mut PointSet, params: &FarthestPointParams, run: 
         report.visits += n_points as usize;
         let fraction = report.iterations as f64 / params.iterations as f64;
         run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share: None, fraction });
-        if farthest <= STILL * spacing && !is_met(&mut gaps)? {
-            break if params.min_distance.is_some() { Outcome::IterationLimit } else { Outcome::Converged };
+        if farthest <= STILL * spacing && params.min_distance.is_none() {
+            break Outcome::Converged;
         }
     };
     report.triangulations += gaps.n_rebuilt;
