@@ -5,10 +5,10 @@
 mod spaces;
 
 use evenly::{
-    CancelToken, CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Mode, OptBetaParams, Outcome, PointSet,
-    ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Targets, Torus, WellSpacedParams,
-    capacity, cvt, distmesh, farthest_point, hexagonal, jittered, lloyd, measure, opt_beta, procrustes, push_pull, tessellate, warp,
-    well_spaced, white,
+    CancelToken, CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Measures, Mode, OptBetaParams, Outcome,
+    PointSet, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Targets, Torus,
+    WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh, farthest_point, hexagonal, jittered, lloyd, measure, opt_beta, procrustes,
+    push_pull, tessellate, warp, well_spaced, white,
 };
 use proptest::prelude::*;
 
@@ -99,6 +99,17 @@ fn assert_sound(points: &PointSet, n: usize, report: &Report, case: &str) {
     }
 }
 
+/// Ebeida et al., proposition 6.4: beta bounds all angles, in every state; and on a torus the number of neighbours.
+fn assert_bounded(measures: &Measures, space: &Space, case: &str) {
+    let Some([least, most]) = angle_bounds_deg(measures.beta) else { return };
+    assert!(measures.angle_rms_deg.is_nan() || measures.min_angle_deg >= least - 1e-6 && measures.max_angle_deg <= most + 1e-6, "{case}");
+    for &k in measures.valence.keys().filter(|_| space.is_periodic()) {
+        // A vertex with k neighbours has an angle of 360 / k degrees or more, and one of that or less.
+        let mean = 360.0 / k as f64;
+        assert!(mean >= least - 1e-6 && mean <= most + 1e-6, "{case}: {k} neighbours");
+    }
+}
+
 #[test]
 fn every_method_is_sound_in_every_space_for_every_number() {
     for method in Method::all() {
@@ -106,7 +117,11 @@ fn every_method_is_sound_in_every_space_for_every_number() {
             for n in (1..=24).chain([50, 333, 1000]) {
                 let mut points = white(space, n, n as u64).unwrap();
                 let report = method.run(&mut points);
-                assert_sound(&points, n, &report, &format!("{method:?}, {space}, {n}"));
+                let case = format!("{method:?}, {space}, {n}");
+                assert_sound(&points, n, &report, &case);
+                if let Ok(measures) = measure(&points) {
+                    assert_bounded(&measures, &space, &case);
+                }
             }
         }
     }
