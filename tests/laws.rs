@@ -333,7 +333,11 @@ fn a_cancelled_run_keeps_its_best_state() {
         let report = method.run_in(&mut points, &mut run);
         assert_eq!((report.outcome, report.iterations), (Outcome::Cancelled, 5), "{method:?}");
         let after = measure(&points).unwrap();
-        let is_better = after.angle_rms_deg < before.angle_rms_deg || after.capacity_sd < 0.5 * before.capacity_sd;
+        // Equal areas are all that the last wants; the triangles may suffer.
+        let is_better = match method {
+            Method::Capacity(_) => after.capacity_sd < 0.5 * before.capacity_sd,
+            _ => after.angle_rms_deg < before.angle_rms_deg,
+        };
         assert!(is_better, "{method:?}");
     }
 }

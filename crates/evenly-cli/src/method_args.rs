@@ -38,7 +38,7 @@ pub struct OptimizerArgs {
     capacity_tolerance: Option<Target>,
     /// Coverage radius over smallest distance: below 0.707 no triangle is obtuse [default: 0.75; opt-beta: 0.85]
     ///
-    /// Well-spaced is known to reach 0.67 on a torus and 0.72 in a rectangle, opt-beta 0.80 to 0.82 with 10,000 points.
+    /// Well-spaced is known to reach 0.67 on a torus and 0.72 in a rectangle, opt-beta 0.79 to 0.80 with 10,000 points.
     #[arg(long, value_name = "B", allow_negative_numbers = true, help_heading = "Targets")]
     beta: Option<f64>,
     /// paper: plain steps, the energy never rises (but where a rectangle is triangulated anew); fast: momentum [default: fast]

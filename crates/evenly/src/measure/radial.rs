@@ -19,7 +19,7 @@ pub struct RadialSpectrum {
     /// How many sets it is the mean of.
     pub n_sets: usize,
     /// The effective Nyquist frequency: up to there less than a tenth of white noise's power passes, on average over the disk of frequencies. More aliases
-    /// less; some 0.93 is the most that sets without order reach.
+    /// less.
     pub effective_nyquist: f64,
     /// The oscillation: 10 times the root mean square distance of the power from 1, over a ring of frequencies 5 wide, from where the power first comes near
     /// 1. Less makes aliasing look more like noise.

@@ -9,7 +9,7 @@
 //! proportional to the area of its squares, and a cell may throw once no cell around it has an earlier time. The points are distributed as those of darts
 //! thrown one after the other at the whole domain, but are found in the order in which memory lies.
 //!
-//! Cost: O(n), some six darts a point. The result is maximal to within 1e-13 of the spacing, or to what coordinates far from 0 are rounded by.
+//! Cost: O(n). The result is maximal to within 1e-13 of the spacing, or to what coordinates far from 0 are rounded by.
 
 mod cells;
 
