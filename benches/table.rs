@@ -1,5 +1,5 @@
-//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts | comparators]`, quick without the largest
-//! runs.
+//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts | comparators | spectrum]`,
+//! quick without the largest runs.
 //!
 //! Speed is a ratio to one run of `delaunator` on the same points in the same process, the best of a few runs each.
 
@@ -11,7 +11,7 @@ use evenly::{
     CANDIDATES_A_POINT, CvtParams, DartParams, DistMeshParams, Error, FarthestPointParams, LloydParams, Measures, Mode, OptBetaParams,
     Outcome, Phase, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Space,
     Targets, Torus, WellSpacedParams, cvt, dart, distmesh, eliminate, farthest_point, lloyd, measure, opt_beta, poisson_disk,
-    poisson_disk_of, procrustes, push_pull, warp, warp_isotropic, well_spaced, white,
+    poisson_disk_of, power_spectrum, procrustes, push_pull, radial_spectrum, warp, warp_isotropic, well_spaced, white,
 };
 use peak_alloc::PeakAlloc;
 
@@ -24,7 +24,7 @@ fn main() {
     let args: Vec<String> = std::env::args().collect();
     let is_wanted = |name: &str| args.iter().any(|arg| arg == name);
     let is_quick = is_wanted("quick");
-    let is_all = !["procrustes", "push-pull", "starts", "comparators"].into_iter().any(is_wanted);
+    let is_all = !["procrustes", "push-pull", "starts", "comparators", "spectrum"].into_iter().any(is_wanted);
     println!("| run | must reach | measured |\n|---|---|---|");
     if is_all || is_wanted("procrustes") {
         of_procrustes(is_quick);
@@ -37,6 +37,9 @@ fn main() {
     }
     if is_all || is_wanted("comparators") {
         of_comparators();
+    }
+    if is_all || is_wanted("spectrum") {
+        of_spectra(is_quick);
     }
 }
 
@@ -121,6 +124,20 @@ fn of_starts(is_quick: bool) {
         "| dart throwing, n = {n} | - | {ratio:.0}, min distance {:.3} |",
         measure(&dart(torus(), &darts).unwrap()).unwrap().min_distance
     );
+}
+
+fn of_spectra(is_quick: bool) {
+    let sizes = if is_quick { &[(10_000, "-"), (100_000, "<= 20")][..] } else { &[(10_000, "-"), (100_000, "<= 20"), (1_000_000, "-")] };
+    let one = pool(1);
+    for &(n, must) in sizes {
+        let points = white(torus(), n, 1).unwrap();
+        let unit = delaunator(&points).as_secs_f64();
+        let sets = std::slice::from_ref(&points);
+        let power = best(2, || one.install(|| power_spectrum(sets, 4.0)).unwrap()).as_secs_f64() / unit;
+        let radial = best(2, || one.install(|| radial_spectrum(sets)).unwrap()).as_secs_f64() / unit;
+        println!("| power spectrum up to 4 sqrt(n) and its radial mean, one thread, n = {n} | {must} delaunator runs | {power:.1} |");
+        println!("| pair correlation and its radial spectrum, one thread, n = {n} | {must} | {radial:.1} |");
+    }
 }
 
 fn of_comparators() {

@@ -439,8 +439,20 @@ fn a_spectrum_comes_with_the_measures_where_it_is_asked_for() {
     assert_eq!(found["radial_power"].as_array().unwrap().len(), found["frequencies"].as_array().unwrap().len());
     assert!(found["effective_nyquist"].as_f64().unwrap() > 0.85 && found["beta"].as_f64().unwrap() < 1.1);
     assert!(!shell.ok("analyze a.txt --json").contains("effective_nyquist"));
+    assert_eq!(found["ring_power"].as_array().unwrap().len(), found["anisotropy_db"].as_array().unwrap().len());
+    // Of several sets the mean.
+    shell.ok("generate -n 1900 --method lloyd --seed 1 -o b.txt");
+    let both: Value = serde_json::from_str(&shell.ok("analyze a.txt b.txt --spectrum --json")).unwrap();
+    assert!(both["n_sets"] == 2 && both["sets"][1]["n_points"] == 1900 && both["sets"][0]["name"] == "a.txt");
+    let abreast = shell.ok("analyze a.txt b.txt");
+    assert!(abreast.lines().any(|line| line.split_whitespace().eq(["n_points", "2000", "1900"])), "{abreast}");
+    // Where the density varies.
+    let local: Value = serde_json::from_str(&shell.ok("analyze a.txt --spectrum --local --json")).unwrap();
+    assert!(local["effective_nyquist"].as_f64().unwrap() > 0.8 && local.get("ring_power").is_none());
     shell.ok("generate -n 9 --method white -o few.txt");
     assert!(shell.refused("analyze few.txt --spectrum").contains("too few points"));
+    assert!(shell.refused("analyze a.txt few.txt --spectrum").contains("2000 and of 9 points"));
+    assert!(shell.refused("analyze a.txt b.txt --spectrum --local").contains("one set"));
 }
 
 #[test]

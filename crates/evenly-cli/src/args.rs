@@ -92,18 +92,24 @@ pub struct Optimize {
 }
 
 #[derive(Args)]
-#[command(after_help = "Example:\n  evenly analyze points.txt --json --plot valence.png --draw valence,points")]
+#[command(
+    after_help = "Examples:\n  evenly analyze points.txt --json --plot valence.png --draw valence,points\n  evenly analyze a.txt b.txt c.txt --spectrum"
+)]
 pub struct Analyze {
-    /// Points as .txt, .csv or .npy; - is stdin
-    pub input: PathBuf,
+    /// Points as .txt, .csv or .npy; - is stdin. Of several sets the spectrum is the mean of theirs
+    #[arg(required = true)]
+    pub inputs: Vec<PathBuf>,
     #[command(flatten)]
     pub space: SpaceArgs,
     /// Print the measures as JSON
     #[arg(long)]
     pub json: bool,
-    /// The radial power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON
+    /// The power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON
     #[arg(long)]
     pub spectrum: bool,
+    /// Take each distance in its place's own spacing, for one set whose density varies (differential domain analysis)
+    #[arg(long, requires = "spectrum")]
+    pub local: bool,
     /// Draw the points, as .svg or .png
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,

@@ -27,7 +27,10 @@ mod sweep;
 mod triangulation;
 
 pub use error::Error;
-pub use measure::{BorderMeasures, Measures, RadialSpectrum, Tessellation, measure, radial_spectrum, tessellate};
+pub use measure::{
+    BorderMeasures, Measures, PowerSpectrum, RadialSpectrum, Tessellation, differential_spectrum, local_spacings, measure, power_spectrum,
+    radial_spectrum, tessellate,
+};
 pub use optimize::{
     CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Mode, OptBetaParams, ProcrustesParams, PushPullParams,
     PushPullPreset, Targets, UnmetTarget, WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh, farthest_point, lloyd, opt_beta,

@@ -1,16 +1,23 @@
 //! `evenly analyze`: the proof.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context as _, bail};
-use evenly::{Measures, RadialSpectrum, measure, radial_spectrum};
+use evenly::{
+    Measures, PointSet, PowerSpectrum, RadialSpectrum, differential_spectrum, local_spacings, measure, power_spectrum, radial_spectrum,
+};
 use evenly_io::{Draw, Format, Target, write_points};
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::args::Analyze;
 use crate::talk::say;
 use crate::{input, record, session};
+
+/// Up to which frequency the power is looked at, in inverse mean spacings.
+const MAX_FREQUENCY: f64 = 4.0;
 
 pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
@@ -21,50 +28,120 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     if let Some(plot) = plot.as_ref().filter(|plot| plot.format().holds_points()) {
         bail!("{}: a figure is .svg or .png", plot.name());
     }
-    let (points, note) = input::read(&args.input, space)?;
-    if let Some(note) = note {
-        say(format_args!("note: {note}"));
+    if args.local && args.inputs.len() > 1 {
+        bail!("--local is for one set");
     }
-    let name = || args.input.display().to_string();
+    let mut sets = Vec::new();
+    for path in &args.inputs {
+        let (points, note) = input::read(path, space)?;
+        if let Some(note) = note {
+            say(format_args!("note: {}: {note}", path.display()));
+        }
+        sets.push(points);
+    }
     let pool = session::pool(args.threads)?;
-    let measures = pool.install(|| measure(&points)).with_context(name)?;
-    let spectrum =
-        if args.spectrum { Some(pool.install(|| radial_spectrum(std::slice::from_ref(&points))).with_context(name)?) } else { None };
-    let found = Found { measures, spectrum };
-    if let Some(plot) = &plot {
+    let names = || args.inputs.iter().map(|path| path.display().to_string());
+    let measured = names().zip(&sets).map(|(name, points)| Ok((name.clone(), pool.install(|| measure(points)).context(name)?)));
+    let measured: Vec<(String, Measures)> = measured.collect::<anyhow::Result<_>>()?;
+    let spectrum = if args.spectrum {
+        Some(pool.install(|| Spectrum::of(&sets, args.local)).with_context(|| names().collect::<Vec<_>>().join(", "))?)
+    } else {
+        None
+    };
+    if let (Some(plot), [points]) = (&plot, &sets[..]) {
         let layers: Vec<Draw> = args.draw.iter().map(|&layer| layer.into()).collect();
-        write_points(&points, &layers, &record::recipe(None), plot).with_context(name)?;
+        write_points(points, &layers, &record::recipe(None), plot)?;
     }
-    let text = if args.json { serde_json::to_string_pretty(&found)? + "\n" } else { table(&found) };
+    let found = Found { measured, spectrum };
+    let text = if args.json { serde_json::to_string_pretty(&found.json())? + "\n" } else { found.table() };
     Target::new("-".as_ref(), Some(Format::Txt), false)?.write(text.as_bytes())?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// All that was asked for, in one object.
+/// Sets side by side in the table, before the next go below.
+const ABREAST: usize = 4;
+
+/// What depends on all sets together.
 #[derive(Serialize)]
-struct Found {
+struct Spectrum {
     #[serde(flatten)]
-    measures: Measures,
+    radial: RadialSpectrum,
+    /// A Fourier spectrum means nothing where the density varies.
     #[serde(flatten)]
-    spectrum: Option<RadialSpectrum>,
+    power: Option<PowerSpectrum>,
 }
 
-/// A line a measure, in the names of the JSON; no curves.
-fn table(found: &Found) -> String {
-    let mut text = String::new();
-    if let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(found) {
-        for (name, value) in fields.iter().filter(|(_, value)| !value.is_array()) {
-            let value = match value {
-                serde_json::Value::Number(number) if number.is_f64() => format!("{:.5}", number.as_f64().unwrap_or(f64::NAN)),
-                serde_json::Value::Object(counts) => {
-                    counts.iter().map(|(key, count)| format!("{key}: {count}")).collect::<Vec<_>>().join(", ")
-                }
-                serde_json::Value::Null if name == "beta" => "infinite".into(),
-                serde_json::Value::Null => "-".into(),
-                other => other.to_string(),
-            };
-            let _ = writeln!(text, "{name:<24} {value}");
-        }
+impl Spectrum {
+    fn of(sets: &[PointSet], is_local: bool) -> Result<Self, evenly::Error> {
+        Ok(match sets {
+            [points] if is_local => Self { radial: differential_spectrum(points, &local_spacings(points)?)?, power: None },
+            _ => Self { radial: radial_spectrum(sets)?, power: Some(power_spectrum(sets, MAX_FREQUENCY)?) },
+        })
     }
-    text
+}
+
+/// All that was asked for: the measures of each set by its name, and the spectrum of all.
+struct Found {
+    measured: Vec<(String, Measures)>,
+    spectrum: Option<Spectrum>,
+}
+
+impl Found {
+    /// One object; several sets are in a list of it.
+    fn json(&self) -> Value {
+        let of_spectrum = self.spectrum.as_ref().map_or_else(|| Value::Object(Default::default()), |spectrum| serde_json::json!(spectrum));
+        let mut object = serde_json::Map::new();
+        match &self.measured[..] {
+            [(_, measures)] => object.extend(fields(serde_json::json!(measures))),
+            sets => {
+                let set = |(name, measures): &(String, Measures)| {
+                    let mut set = serde_json::Map::from_iter([("name".to_owned(), Value::from(name.as_str()))]);
+                    set.extend(fields(serde_json::json!(measures)));
+                    Value::Object(set)
+                };
+                object.insert("sets".into(), sets.iter().map(set).collect());
+            }
+        }
+        object.extend(fields(of_spectrum));
+        Value::Object(object)
+    }
+
+    /// A line a measure, a column a set, in the names of the JSON; no curves.
+    fn table(&self) -> String {
+        let mut text = String::new();
+        for sets in self.measured.chunks(ABREAST) {
+            if self.measured.len() > 1 {
+                line(&mut text, "", sets.iter().map(|(name, _)| Path::new(name).file_name().unwrap_or_default().display().to_string()));
+            }
+            let columns: Vec<_> = sets.iter().map(|(_, measures)| fields(serde_json::json!(measures))).collect();
+            for name in columns[0].keys() {
+                line(&mut text, name, columns.iter().map(|column| shown(name, &column[name])));
+            }
+        }
+        for (name, value) in self.spectrum.iter().flat_map(|spectrum| fields(serde_json::json!(spectrum))) {
+            if !value.is_array() {
+                line(&mut text, &name, std::iter::once(shown(&name, &value)));
+            }
+        }
+        text
+    }
+}
+
+fn fields(value: Value) -> serde_json::Map<String, Value> {
+    if let Value::Object(fields) = value { fields } else { serde_json::Map::new() }
+}
+
+fn line(text: &mut String, name: &str, values: impl Iterator<Item = String>) {
+    let values: Vec<String> = values.map(|value| format!("{value:<24}")).collect();
+    let _ = writeln!(text, "{}", format!("{name:<24} {}", values.join(" ")).trim_end());
+}
+
+fn shown(name: &str, value: &Value) -> String {
+    match value {
+        Value::Number(number) if number.is_f64() => format!("{:.5}", number.as_f64().unwrap_or(f64::NAN)),
+        Value::Object(counts) => counts.iter().map(|(key, count)| format!("{key}: {count}")).collect::<Vec<_>>().join(", "),
+        Value::Null if name == "beta" => "infinite".into(),
+        Value::Null => "-".into(),
+        other => other.to_string(),
+    }
 }

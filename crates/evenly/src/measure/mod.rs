@@ -1,13 +1,21 @@
 //! The proof: what a point set is worth, measured on a fresh exact Delaunay triangulation of it.
 
+mod bessel;
+mod correlation;
+mod differential;
 mod distinct;
 mod measures;
+mod power;
 mod radial;
+mod rows;
+mod sets;
 mod star;
 mod tessellation;
 mod triangles;
 mod voronoi;
 
+pub use differential::{differential_spectrum, local_spacings};
 pub use measures::{BorderMeasures, Measures, measure};
+pub use power::{PowerSpectrum, power_spectrum};
 pub use radial::{RadialSpectrum, radial_spectrum};
 pub use tessellation::{Tessellation, tessellate};

@@ -2,16 +2,20 @@
 //!
 //! The definitions are those of Heck, Schloemer and Deussen, "Blue Noise Sampling with Controlled Aliasing", ACM Transactions on Graphics 32(3), 2013, doi
 //! 10.1145/2487228.2487233, and of their tool psa: the radial power is the Hankel transform of the pair correlation,
-//! P(f) = |1 + 2 pi int (g(r) - 1) r J0(2 pi f r) w(r) dr| with a Blackman-like window w. White noise has g = 1 and P = 1.
+//! P(f) = |1 + 2 pi int (g(r) - 1) r J0(2 pi f r) w(r) dr| with a Blackman-like window w. White noise has g = 1 and P = 1. Where sets have a spike in g, as
+//! maximal Poisson-disk sets do at their radius, how the integrals are summed shows in the second digit of what is derived. They are summed here so that psa's
+//! own figures come out: bins of 1 / 200, each taken where it begins; powers in the disk taken at the ends of their steps.
 //!
-//! Lengths are in mean spacings, sqrt(A / n), frequencies in their inverse. Cost: O(n) with some 2000 distances a point.
+//! Lengths are in mean spacings, sqrt(A / n), frequencies in their inverse. Cost: O(n) with some 1000 distances a point.
 
-use glam::DVec2;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::bessel::Bessel;
+use super::correlation::{BINS, correlate};
+use super::sets::{mean_spacing, require_alike};
 use crate::error::Error;
-use crate::points::{Bins, PointSet, hilbert_order};
+use crate::points::PointSet;
 
 /// What [`radial_spectrum`] finds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -28,7 +32,7 @@ pub struct RadialSpectrum {
     pub frequencies: Vec<f64>,
     /// The radial mean of the power spectrum; 1 for white noise.
     pub radial_power: Vec<f64>,
-    /// Distances at which the pair correlation is given: the middles of bins.
+    /// Distances at which the pair correlation is given: where each bin begins.
     pub distances: Vec<f64>,
     /// How many points there are at a distance from a point, relative to what white noise has.
     pub pair_correlation: Vec<f64>,
@@ -36,10 +40,8 @@ pub struct RadialSpectrum {
 
 /// The largest distance that is looked at, in mean spacings: for few points, and from [`MANY`] on. A larger one shows finer features, and both figures
 /// that are derived grow with it: they can be compared at equal numbers of points alone.
-const REACH: [f64; 2] = [8.0, 16.0];
+pub(super) const REACH: [f64; 2] = [8.0, 16.0];
 const MANY: usize = 4096;
-/// Bins of distances in a mean spacing.
-const BINS: usize = 256;
 /// The largest frequency, and the steps to 1.
 const MAX_FREQUENCY: f64 = 10.0;
 const STEPS: usize = 200;
@@ -49,7 +51,8 @@ const STEPS: usize = 200;
 /// In a rectangle only points count that are so far from the border that it hides no pair.
 ///
 /// # Errors
-/// [`Error::Degenerate`] for no sets, or a set of so few points, or in so narrow a domain, that no distance of two spacings can be looked at.
+/// [`Error::Degenerate`] for no sets, an empty one, sets of different domains or of numbers of points more than a tenth apart, and for so few points, or so
+/// narrow a domain, that no distance of two spacings can be looked at.
 ///
 /// # Example
 /// ```
@@ -61,104 +64,73 @@ const STEPS: usize = 200;
 /// # Ok::<(), evenly::Error>(())
 /// ```
 pub fn radial_spectrum(sets: &[PointSet]) -> Result<RadialSpectrum, Error> {
-    let Some(reach) = sets.iter().map(reach).reduce(f64::min) else { return Err(Error::Degenerate("there are no points".into())) };
-    if reach < 2.0 {
-        return Err(Error::Degenerate(
-            "too few points, or too narrow a domain, for a spectrum: it takes some 100 points in a square".into(),
-        ));
-    }
-    let n_bins = (reach * BINS as f64) as usize;
-    let mut pair_correlation = vec![0.0; n_bins];
+    require_alike(sets)?;
+    let n_bins = n_bins(sets.iter().map(reach).fold(f64::INFINITY, f64::min))?;
+    let mut correlation = vec![0.0; n_bins];
     for points in sets {
-        for (mean, g) in pair_correlation.iter_mut().zip(correlate(points, n_bins)?) {
+        let spacing = (points.space().domain().area() / points.n_points() as f64).sqrt();
+        for (mean, g) in correlation.iter_mut().zip(correlate(points, n_bins, &|_| spacing)?) {
             *mean += g / sets.len() as f64;
         }
     }
-    let distances: Vec<f64> = (0..n_bins).map(|bin| (bin as f64 + 0.5) / BINS as f64).collect();
-    let frequencies: Vec<f64> = (1..=(MAX_FREQUENCY * STEPS as f64) as usize).map(|step| step as f64 / STEPS as f64).collect();
-    let radial_power: Vec<f64> = frequencies.par_iter().map(|&f| power(f, &distances, &pair_correlation, reach)).collect();
-    let effective_nyquist = effective_nyquist(&frequencies, &radial_power);
-    let oscillation = oscillation(&frequencies, &radial_power);
-    Ok(RadialSpectrum { n_sets: sets.len(), effective_nyquist, oscillation, frequencies, radial_power, distances, pair_correlation })
+    Ok(RadialSpectrum::of(sets.len(), correlation))
+}
+
+impl RadialSpectrum {
+    pub(super) fn of(n_sets: usize, pair_correlation: Vec<f64>) -> Self {
+        let distances: Vec<f64> = (0..pair_correlation.len()).map(|bin| bin as f64 / BINS as f64).collect();
+        let frequencies: Vec<f64> = (1..=(MAX_FREQUENCY * STEPS as f64) as usize).map(|step| step as f64 / STEPS as f64).collect();
+        let radial_power = transform(&frequencies, &distances, &pair_correlation);
+        let effective_nyquist = effective_nyquist(&frequencies, &radial_power);
+        let oscillation = oscillation(&frequencies, &radial_power);
+        Self { n_sets, effective_nyquist, oscillation, frequencies, radial_power, distances, pair_correlation }
+    }
 }
 
 /// How far a set lets one look, in mean spacings: on a torus half its shorter side, in a rectangle a quarter of it.
 fn reach(points: &PointSet) -> f64 {
-    let n = points.n_points();
-    let spacing = mean_spacing(points);
     let [width, height] = points.space().size();
     let share = if points.space().is_periodic() { 0.5 } else { 0.25 };
-    REACH[usize::from(n >= MANY)].min(share * width.min(height) / spacing)
+    REACH[usize::from(points.n_points() >= MANY)].min(share * width.min(height) / mean_spacing(points))
 }
 
-/// In input units.
-fn mean_spacing(points: &PointSet) -> f64 {
-    let [width, height] = points.space().size();
-    (width / points.n_points() as f64).sqrt() * height.sqrt()
-}
-
-/// The pair correlation of one set, in bins.
-fn correlate(points: &PointSet, n_bins: usize) -> Result<Vec<f64>, Error> {
-    /// Points whose pairs are counted in one go.
-    const CHUNK: usize = 1 << 10;
-    let (domain, positions) = points.normalized();
-    // Neighbours side by side in memory.
-    let positions: Vec<DVec2> = hilbert_order(&positions, domain.size).iter().map(|&k| positions[k as usize]).collect();
-    let n_points = positions.len();
-    let spacing = (domain.area() / n_points as f64).sqrt();
-    let reach = n_bins as f64 / BINS as f64 * spacing;
-    let mut bins = Bins::new(&domain, reach);
-    positions.iter().for_each(|&place| bins.push(place));
-    let is_clear = |p: DVec2| domain.is_periodic || p.min(domain.size - p).min_element() >= reach;
-    let centres: Vec<u32> = (0..n_points as u32).filter(|&k| is_clear(positions[k as usize])).collect();
-    if centres.is_empty() {
-        return Err(Error::Degenerate("no point is far enough from the border for a spectrum".into()));
+/// So many bins reach that far, in mean spacings.
+pub(super) fn n_bins(reach: f64) -> Result<usize, Error> {
+    if reach < 2.0 {
+        let few = "too few points, or too narrow a domain, for a spectrum: it takes some 100 points in a square";
+        return Err(Error::Degenerate(few.into()));
     }
-    let scale = BINS as f64 / spacing;
-    let counted = centres.par_chunks(CHUNK).map(|chunk| {
-        let mut counts = vec![0u64; n_bins];
-        for &k in chunk {
-            for (other, way) in bins.near(positions[k as usize]) {
-                let bin = (way.length() * scale) as usize;
-                if bin < n_bins && other != k {
-                    counts[bin] += 1;
-                }
-            }
-        }
-        counts
-    });
-    let add = |mut a: Vec<u64>, b: Vec<u64>| {
-        a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
-        a
-    };
-    let counts = counted.reduce(|| vec![0; n_bins], add);
-    // What white noise has in a ring: its area, as there is a point in each squared spacing.
-    let ring = |bin: usize| std::f64::consts::PI * (2.0 * bin as f64 + 1.0) / (BINS * BINS) as f64 * (1.0 - 1.0 / n_points as f64);
-    Ok(counts.iter().enumerate().map(|(bin, &n)| n as f64 / (centres.len() as f64 * ring(bin))).collect())
+    Ok((reach * BINS as f64) as usize)
 }
 
-/// The Hankel transform of a pair correlation at a frequency.
-fn power(frequency: f64, distances: &[f64], correlation: &[f64], reach: f64) -> f64 {
+/// The Hankel transform of a pair correlation, at each frequency.
+fn transform(frequencies: &[f64], distances: &[f64], correlation: &[f64]) -> Vec<f64> {
     use std::f64::consts::{PI, TAU};
+    let reach = correlation.len() as f64 / BINS as f64;
     let window = |r: f64| 0.43 + 0.5 * (PI * r / reach).cos() + 0.08 * (TAU * r / reach).cos();
-    let of_bin = |(&r, &g): (&f64, &f64)| (g - 1.0) * r * libm::j0(TAU * frequency * r) * window(r);
-    (1.0 + TAU / BINS as f64 * distances.iter().zip(correlation).map(of_bin).sum::<f64>()).abs()
+    let excess: Vec<f64> = distances.iter().zip(correlation).map(|(&r, &g)| (g - 1.0) * r * window(r)).collect();
+    let bessel = Bessel::up_to(TAU * MAX_FREQUENCY * reach);
+    let power = |&f: &f64| {
+        let sum: f64 = distances.iter().zip(&excess).map(|(&r, excess)| excess * bessel.j0(TAU * f * r)).sum();
+        (1.0 + TAU / BINS as f64 * sum).abs()
+    };
+    frequencies.par_iter().map(power).collect()
 }
 
-/// The largest frequency, before the mean power in the disk first exceeds a half, at which that mean is below a tenth.
+/// The largest frequency, before the mean power in the disk first rises through a half, at which that mean is below a tenth.
 fn effective_nyquist(frequencies: &[f64], power: &[f64]) -> f64 {
-    let (mut sum, mut nyquist, mut before) = (0.0, 0.0, 0.0);
+    let (mut sum, mut nyquist, mut before) = (0.0, 0.0, f64::INFINITY);
     for (&f, &p) in frequencies.iter().zip(power) {
-        // The mean of the power over a disk of radius f, 2 / f^2 int P u du, by trapezia.
-        sum += 0.5 * (before + p * f) / STEPS as f64;
-        before = p * f;
+        // The mean of the power over a disk of radius f, 2 / f^2 int P u du.
+        sum += p * f / STEPS as f64;
         let mean = 2.0 * sum / (f * f);
-        if mean > 0.5 {
+        if before <= 0.5 && mean > 0.5 {
             break;
         }
         if mean < 0.1 {
             nyquist = f;
         }
+        before = mean;
     }
     nyquist
 }

@@ -13,7 +13,6 @@ mod separate;
 mod warp;
 mod white;
 
-pub(crate) use bins::Bins;
 pub use dart::{DartParams, dart};
 pub use eliminate::{CANDIDATES_A_POINT, eliminate};
 pub use hexagonal::hexagonal;

@@ -144,6 +144,12 @@ impl Domain {
         }
     }
 
+    /// The radius of the largest disk around a place that the domain holds: on a torus, without covering a place twice.
+    pub fn room(&self, q: DVec2) -> f64 {
+        let room = if self.is_periodic { 0.5 * self.size } else { q.min(self.size - q) };
+        room.min_element()
+    }
+
     /// Whether a place lies in the closed box.
     pub fn contains(&self, q: DVec2) -> bool {
         q.cmpge(DVec2::ZERO).all() && q.cmple(self.size).all()

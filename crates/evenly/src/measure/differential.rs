@@ -1,0 +1,151 @@
+//! Statistics of distances where the density varies: differential domain analysis.
+//!
+//! A Fourier spectrum mixes places of different spacing and shows nothing. Distances do not mix when each is taken in the spacing of its place: Wei and Wang,
+//! "Differential Domain Analysis for Non-uniform Sampling", ACM Transactions on Graphics 30(4), 2011, doi 10.1145/2010324.1964945. What differs: lengths alone are
+//! scaled, the same in all directions, and the spectrum is that of the scaled pair correlation, so that uniform and other sets can be compared.
+
+use rayon::prelude::*;
+
+use super::correlation::correlate;
+use super::radial::{REACH, RadialSpectrum, n_bins};
+use super::rows::Rows;
+use super::sets::require_alike;
+use crate::error::Error;
+use crate::points::PointSet;
+
+/// What [`radial_spectrum`](crate::radial_spectrum) finds, of a set whose density varies. The distances from each point are taken in its own spacing, in input units; points
+/// count that have room for eight of theirs, or as many as half of the points have room for.
+///
+/// The spacing is 1 / sqrt(density); [`local_spacings`] guesses it where it is not known.
+///
+/// # Errors
+/// [`Error::Degenerate`] as for [`radial_spectrum`](crate::radial_spectrum); [`Error::InvalidParameter`] if there is not one spacing a point, positive and finite.
+///
+/// # Example
+/// ```
+/// use evenly::{Rectangle, differential_spectrum, local_spacings, white};
+///
+/// let noise = white(Rectangle::new([0.0, 0.0], [1.0, 1.0])?, 5000, 7)?;
+/// let spectrum = differential_spectrum(&noise, &local_spacings(&noise)?)?;
+/// assert!(spectrum.effective_nyquist < 0.2);
+/// # Ok::<(), evenly::Error>(())
+/// ```
+pub fn differential_spectrum(points: &PointSet, spacings: &[f64]) -> Result<RadialSpectrum, Error> {
+    require_alike(std::slice::from_ref(points))?;
+    let wrong = |value: String| Error::InvalidParameter { name: "spacings", value, expected: "one positive, finite length a point" };
+    if spacings.len() != points.n_points() {
+        return Err(wrong(format!("{} lengths", spacings.len())));
+    }
+    if let Some(spacing) = spacings.iter().find(|&&spacing| !(spacing > 0.0 && spacing.is_finite())) {
+        return Err(wrong(spacing.to_string()));
+    }
+    let (domain, positions) = points.normalized();
+    let scale = 1.0 / domain.restore_length(1.0);
+    let mut rooms: Vec<f64> = positions.iter().zip(spacings).map(|(&p, spacing)| domain.room(p) / (spacing * scale)).collect();
+    let middle = rooms.len() / 2;
+    let (_, &mut median, _) = rooms.select_nth_unstable_by(middle, f64::total_cmp);
+    let n_bins = n_bins(REACH[0].min(median))?;
+    let mut correlation = correlate(points, n_bins, &|index| spacings[index] * scale)?;
+    level(&mut correlation);
+    Ok(RadialSpectrum::of(1, correlation))
+}
+
+/// Brings the mean over far pairs to 1: spacings that are all a little wrong would else look like a long wave.
+fn level(correlation: &mut [f64]) {
+    let far = correlation.len() / 2;
+    let weighted = |values: &mut dyn Iterator<Item = (usize, f64)>| values.map(|(bin, value)| (bin as f64 + 0.5) * value).sum::<f64>();
+    let sum = weighted(&mut correlation.iter().copied().enumerate().skip(far));
+    let expected = weighted(&mut (far..correlation.len()).map(|bin| (bin, 1.0)));
+    correlation.iter_mut().for_each(|g| *g *= expected / sum);
+}
+
+/// A guess at each point's own spacing, 1 / sqrt(density), in input units: from the disk with 64 neighbours, or, of few points, half of them. It is good to a hundredth
+/// where the density is even over so many, and too large at a rectangle's border.
+///
+/// # Errors
+/// [`Error::Degenerate`] for fewer than three points, or so many in one place that they have no distance.
+pub fn local_spacings(points: &PointSet) -> Result<Vec<f64>, Error> {
+    const NEIGHBOURS: usize = 64;
+    let (domain, positions) = points.normalized();
+    if positions.len() < 3 {
+        return Err(Error::Degenerate("a spacing takes three points or more".into()));
+    }
+    let rank = NEIGHBOURS.min(positions.len() / 2);
+    let rows = Rows::new(&domain, &positions, 4.0);
+    let distances: Vec<f64> = positions.par_iter().map(|&p| rows.distance_to_nearest(p, rank)).collect();
+    if distances.contains(&0.0) {
+        return Err(Error::Degenerate(format!("more than {rank} points share a place: there is no local spacing")));
+    }
+    let scale = (std::f64::consts::PI / rank as f64).sqrt();
+    Ok(distances.iter().map(|distance| domain.restore_length(scale * distance)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::Random;
+    use crate::{Rectangle, Torus, radial_spectrum, white};
+
+    /// The spacing wanted at a place: three times as large at one side as at the other.
+    fn wanted(p: [f64; 2]) -> f64 {
+        0.008 * (1.0 + 2.0 * p[0])
+    }
+
+    /// Darts, none nearer to another than three quarters of its spacing, equally many thrown at each squared spacing.
+    fn darts(wanted: impl Fn([f64; 2]) -> f64, place: impl Fn(f64) -> f64) -> PointSet {
+        let mut random = Random::new(1, 9);
+        let mut kept: Vec<[f64; 2]> = Vec::new();
+        for _ in 0..60_000 {
+            let dart = [place(random.unit()), random.unit()];
+            let reach = 0.75 * wanted(dart);
+            if kept.iter().all(|p| (p[0] - dart[0]).hypot(p[1] - dart[1]) >= reach.min(0.75 * wanted(*p))) {
+                kept.push(dart);
+            }
+        }
+        PointSet::new(Rectangle::new([0.0, 0.0], [1.0, 1.0]).unwrap(), kept).unwrap()
+    }
+
+    #[test]
+    fn darts_of_varying_size_look_like_darts_of_one_size() {
+        let uniform = radial_spectrum(&[darts(|_| 0.016, |u| u)]).unwrap();
+        let varying = darts(wanted, |u| u / (3.0 - 2.0 * u));
+        let known: Vec<f64> = varying.positions().iter().map(|&p| wanted(p)).collect();
+        // The darts' true spacing is a constant part of the one wanted: in all, there is a point in each squared spacing.
+        let integral = 1.0 / (0.008f64.powi(2) * 3.0);
+        let ratio = (integral / varying.n_points() as f64).sqrt();
+        let known: Vec<f64> = known.iter().map(|spacing| ratio * spacing).collect();
+        let guessed = local_spacings(&varying).unwrap();
+        let power = |s: &RadialSpectrum, f: f64| s.radial_power[(200.0 * f) as usize];
+        let blind = radial_spectrum(std::slice::from_ref(&varying)).unwrap();
+        // Looked at as one, the spacings blur each other.
+        assert!(power(&blind, 1.2) < power(&uniform, 1.2) - 0.25);
+        for spacings in [known, guessed] {
+            let seen = differential_spectrum(&varying, &spacings).unwrap();
+            for f in [0.3, 0.6, 1.2, 1.5, 2.0, 2.3] {
+                assert!((power(&seen, f) - power(&uniform, f)).abs() < 0.15, "{f}: {} {}", power(&seen, f), power(&uniform, f));
+            }
+        }
+    }
+
+    #[test]
+    fn of_a_uniform_set_it_is_the_plain_analysis() {
+        let noise = white(Torus::new([0.0, 0.0], [2.0, 2.0]).unwrap(), 4000, 3).unwrap();
+        let spacing = (4.0f64 / 4000.0).sqrt();
+        let (plain, seen) =
+            (radial_spectrum(std::slice::from_ref(&noise)).unwrap(), differential_spectrum(&noise, &vec![spacing; 4000]).unwrap());
+        let error = plain.pair_correlation.iter().zip(&seen.pair_correlation).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(error < 0.1, "{error}");
+        let mean = local_spacings(&noise).unwrap().iter().sum::<f64>() / 4000.0;
+        assert!((mean / spacing - 1.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn wrong_spacings_are_errors() {
+        let noise = white(Torus::new([0.0, 0.0], [1.0, 1.0]).unwrap(), 1000, 3).unwrap();
+        for spacings in [vec![], vec![0.1; 999], vec![0.0; 1000], vec![f64::NAN; 1000], vec![1.0; 1000]] {
+            assert!(differential_spectrum(&noise, &spacings).is_err());
+        }
+        let heap = PointSet::new(*noise.space(), vec![[0.5, 0.5]; 1000]).unwrap();
+        assert!(local_spacings(&heap).is_err() && local_spacings(&white(*noise.space(), 2, 0).unwrap()).is_err());
+    }
+}

@@ -1,0 +1,66 @@
+//! Waves summed point by point: exact to rounding.
+//!
+//! With e(t) = exp(-2 pi i t), the sum over points of e(a x) e(b y) is a product of matrices, frequencies a times points times frequencies b; in real
+//! numbers, of cosines and sines. One product serves b and -b.
+
+use ndarray::{Array2, Axis, linalg::general_mat_mul};
+use rayon::prelude::*;
+
+use super::Waves;
+
+/// Frequencies a, and points, in one product: as much as lies in a cache.
+const ROWS: usize = 64;
+const POINTS: usize = 1024;
+
+/// Adds `share` of the power of every frequency.
+pub(super) fn add_power(waves: &Waves, share: f64, power: &mut [f64]) {
+    let n_columns = 2 * waves.half[1] + 1;
+    power.par_chunks_mut(ROWS * n_columns).enumerate().for_each(|(block, power)| {
+        let first = block * ROWS;
+        let n_rows = power.len() / n_columns;
+        let sums = sums(waves, first, n_rows);
+        for (row, power) in power.chunks_mut(n_columns).enumerate() {
+            let a = first + row;
+            let of = |function: [usize; 2], b: usize| sums[[row + function[0] * n_rows, b + function[1] * (waves.half[1] + 1)]];
+            for (column, power) in power.iter_mut().enumerate() {
+                let b = column as i64 - waves.half[1] as i64;
+                let (k, sign) = (b.unsigned_abs() as usize, b.signum().clamp(-1, 1) as f64);
+                let [cc, cs, sc, ss] = [[0, 0], [0, 1], [1, 0], [1, 1]].map(|function| of(function, k));
+                let (real, imaginary) = (cc - sign * ss - waves.of_density(a, b), -(sc + sign * cs));
+                *power += share * (real * real + imaginary * imaginary);
+            }
+        }
+    });
+}
+
+/// The products of functions of x, cosines of `n_rows` frequencies and then their sines, with those of y; summed over the points.
+fn sums(waves: &Waves, first: usize, n_rows: usize) -> Array2<f64> {
+    let n_columns = waves.half[1] + 1;
+    let mut sums = Array2::zeros((2 * n_rows, 2 * n_columns));
+    let (mut of_x, mut of_y) = (Array2::zeros((POINTS, 2 * n_rows)), Array2::zeros((POINTS, 2 * n_columns)));
+    for start in (0..waves.x.len()).step_by(POINTS) {
+        let n_points = POINTS.min(waves.x.len() - start);
+        for point in 0..n_points {
+            let index = start + point;
+            turn(waves.x[index], first, waves.weight[index], of_x.row_mut(point).as_slice_mut().unwrap_or_default());
+            turn(waves.y[index], 0, 1.0, of_y.row_mut(point).as_slice_mut().unwrap_or_default());
+        }
+        let [(of_x, _), (of_y, _)] = [&of_x, &of_y].map(|functions| functions.view().split_at(Axis(0), n_points));
+        general_mat_mul(1.0, &of_x.t(), &of_y, 1.0, &mut sums);
+    }
+    sums
+}
+
+/// Fills in the cosines of a place's frequencies from `first` on, and then the sines: each from the one before, by a rotation.
+fn turn(place: f64, first: usize, weight: f64, functions: &mut [f64]) {
+    use std::f64::consts::TAU;
+    let (cosines, sines) = functions.split_at_mut(functions.len() / 2);
+    let start = (first as f64 * place).fract();
+    let (sine, cosine) = (TAU * start).sin_cos();
+    let (turn_sine, turn_cosine) = (TAU * place).sin_cos();
+    let (mut c, mut s) = (weight * cosine, weight * sine);
+    for (cosine, sine) in cosines.iter_mut().zip(sines) {
+        (*cosine, *sine) = (c, s);
+        (c, s) = (c * turn_cosine - s * turn_sine, s * turn_cosine + c * turn_sine);
+    }
+}
