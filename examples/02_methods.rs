@@ -48,7 +48,7 @@ fn panel(svg: &mut String, x: f64, name: &str, points: &PointSet) -> Result<(), 
     )?;
     let scale = PANEL / FIGURE;
     writeln!(svg, "<g transform=\"translate({x} {CAPTION}) scale({scale})\">")?;
-    svg.push_str(&figure(points, &[Draw::Valence, Draw::Points], name)?);
+    svg.push_str(&figure(&points.into(), &[Draw::Valence, Draw::Points], name)?);
     svg.push_str("</g>\n");
     Ok(())
 }

@@ -367,7 +367,7 @@ fn bad_input_gets_one_line_and_no_file() {
         ("compare -n 10 -o o.txt", "o.txt: unknown ending; use one of .md .csv .json .html"),
         ("compare missing.txt", "missing.txt: No such file"),
         ("generate -n 10 -o good.txt", "good.txt exists already; pass --force"),
-        ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .svg .png"),
+        ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .svg .png .pdf"),
         ("generate -n 10 -o o", "o: no ending"),
         ("generate -n 10 -o folder", "folder: "),
         ("generate -n 10 -o nowhere/o.txt", "nowhere/o.txt: entity not found"),
@@ -453,6 +453,45 @@ fn a_spectrum_comes_with_the_measures_where_it_is_asked_for() {
     assert!(shell.refused("analyze few.txt --spectrum").contains("too few points"));
     assert!(shell.refused("analyze a.txt few.txt --spectrum").contains("2000 and of 9 points"));
     assert!(shell.refused("analyze a.txt b.txt --spectrum --local").contains("one set"));
+}
+
+#[test]
+fn a_report_is_a_page_of_every_figure() {
+    let shell = Shell::new();
+    for (n, space) in [("300", "torus"), ("1500", "rect --size 3,2"), ("3", "torus"), ("2000", "torus --size 100,1")] {
+        shell.ok(&format!("generate -n {n} --space {space} -q --force -o a.txt"));
+        for ending in ["svg", "png", "pdf"] {
+            shell.ok(&format!("analyze a.txt --space {space} --force --plot a.{ending}"));
+        }
+        let svg = shell.read("a.svg");
+        for title in [
+            "Points",
+            "Neighbours",
+            "Voronoi areas",
+            "Power spectrum",
+            "Radial mean",
+            "Anisotropy",
+            "Pair correlation",
+            "Angles",
+            "Measures",
+        ] {
+            assert!(svg.contains(&format!(">{title}")), "{title}");
+        }
+        assert_eq!(svg.contains("too few points"), n == "3");
+        assert!(fs::read(shell.path("a.png")).unwrap().starts_with(b"\x89PNG"));
+        assert!(fs::read(shell.path("a.pdf")).unwrap().starts_with(b"%PDF"));
+    }
+    // A chart alone; several; and one that there is no data for.
+    shell.ok("generate -n 300 -q -o b.pdf --draw radial,angles,capacity");
+    shell.ok("generate -n 300 -q -o b.txt");
+    shell.ok("analyze b.txt b.txt --plot c.svg --draw anisotropy");
+    assert!(shell.read("c.svg").contains("anisotropy (dB)"));
+    shell.ok("analyze b.txt --local --plot d.svg");
+    assert!(!shell.read("d.svg").contains("Anisotropy"));
+    shell.ok("generate -n 9 -q -o few.txt");
+    assert!(shell.refused("analyze few.txt --plot few.svg --draw radial").contains("too few points"));
+    assert!(!shell.path("few.svg").exists());
+    assert!(shell.refused("analyze few.txt --plot few.npy").contains(".svg, .png or .pdf"));
 }
 
 #[test]

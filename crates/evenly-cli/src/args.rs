@@ -92,9 +92,7 @@ pub struct Optimize {
 }
 
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  evenly analyze points.txt --json --plot valence.png --draw valence,points\n  evenly analyze a.txt b.txt c.txt --spectrum"
-)]
+#[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
 pub struct Analyze {
     /// Points as .txt, .csv or .npy; - is stdin. Of several sets the spectrum is the mean of theirs
     #[arg(required = true)]
@@ -108,13 +106,13 @@ pub struct Analyze {
     #[arg(long)]
     pub spectrum: bool,
     /// Take each distance in its place's own spacing, for one set whose density varies (differential domain analysis)
-    #[arg(long, requires = "spectrum")]
+    #[arg(long)]
     pub local: bool,
-    /// Draw the points, as .svg or .png
+    /// Draw a figure, as .svg, .png or .pdf
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// The figure's layers
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "points", requires = "plot")]
+    /// What the figure shows
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "PARTS", default_value = "report", requires = "plot")]
     pub draw: Vec<DrawArg>,
     /// Overwrite an existing figure
     #[arg(long)]
@@ -180,14 +178,14 @@ pub struct SpaceArgs {
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub struct RunArgs {
-    /// Where the points go: .txt .csv .npy, or as a figure .svg .png; - is stdout
+    /// Where the points go: .txt .csv .npy, or drawn: .svg .png .pdf; - is stdout
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// The output's format, txt csv npy svg or png, if its name does not tell
+    /// The output's format, txt csv npy svg png or pdf, if its name does not tell
     #[arg(long, value_parser = parse_format)]
     pub format: Option<Format>,
-    /// A figure's layers
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "LAYERS")]
+    /// What is drawn, parts as in analyze [default: points]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "PARTS", hide_possible_values = true)]
     pub draw: Option<Vec<DrawArg>>,
     /// Write the run's whole record, as JSON
     #[arg(long, value_name = "FILE")]
@@ -228,6 +226,20 @@ pub enum DrawArg {
     Voronoi,
     /// Voronoi cells coloured by their number of neighbours
     Valence,
+    /// Voronoi cells coloured by their area
+    Capacity,
+    /// The power spectrum, in log grey
+    Spectrum,
+    /// The radial mean of the power spectrum
+    Radial,
+    /// How much the power differs by direction
+    Anisotropy,
+    /// The pair correlation
+    Correlation,
+    /// The angles of the triangles
+    Angles,
+    /// One page of all of it
+    Report,
 }
 
 /// The whole command, with what the table of methods adds to the help.
@@ -242,6 +254,13 @@ impl From<DrawArg> for Draw {
             DrawArg::Delaunay => Self::Delaunay,
             DrawArg::Voronoi => Self::Voronoi,
             DrawArg::Valence => Self::Valence,
+            DrawArg::Capacity => Self::Capacity,
+            DrawArg::Spectrum => Self::PowerSpectrum,
+            DrawArg::Radial => Self::RadialPower,
+            DrawArg::Anisotropy => Self::Anisotropy,
+            DrawArg::Correlation => Self::PairCorrelation,
+            DrawArg::Angles => Self::Angles,
+            DrawArg::Report => Self::Report,
         }
     }
 }

@@ -17,12 +17,14 @@ pub enum Format {
     Svg,
     /// A figure, in pixels.
     Png,
+    /// A figure, as a page.
+    Pdf,
 }
 
 impl Format {
     /// All formats, by name.
-    pub const ALL: [(&'static str, Self); 5] =
-        [("txt", Self::Txt), ("csv", Self::Csv), ("npy", Self::Npy), ("svg", Self::Svg), ("png", Self::Png)];
+    pub const ALL: [(&'static str, Self); 6] =
+        [("txt", Self::Txt), ("csv", Self::Csv), ("npy", Self::Npy), ("svg", Self::Svg), ("png", Self::Png), ("pdf", Self::Pdf)];
 
     /// The format that a name stands for.
     pub fn from_name(name: &str) -> Option<Self> {

@@ -7,10 +7,10 @@ mod figure;
 mod file;
 mod format;
 mod npy;
-mod raster;
+mod render;
 mod text;
 
 pub use error::Error;
-pub use figure::{Draw, figure};
-pub use file::{Target, read_positions, write_points};
+pub use figure::{Draw, Subject, figure};
+pub use file::{Target, read_positions, write_figure, write_points};
 pub use format::Format;

@@ -8,7 +8,7 @@ use anyhow::{Context as _, bail};
 use evenly::{
     Measures, PointSet, PowerSpectrum, RadialSpectrum, differential_spectrum, local_spacings, measure, power_spectrum, radial_spectrum,
 };
-use evenly_io::{Draw, Format, Target, write_points};
+use evenly_io::{Draw, Format, Subject, Target, write_figure};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -26,7 +26,7 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
         None => None,
     };
     if let Some(plot) = plot.as_ref().filter(|plot| plot.format().holds_points()) {
-        bail!("{}: a figure is .svg or .png", plot.name());
+        bail!("{}: a figure is .svg, .png or .pdf", plot.name());
     }
     if args.local && args.inputs.len() > 1 {
         bail!("--local is for one set");
@@ -48,9 +48,11 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     } else {
         None
     };
-    if let (Some(plot), [points]) = (&plot, &sets[..]) {
-        let layers: Vec<Draw> = args.draw.iter().map(|&layer| layer.into()).collect();
-        write_points(points, &layers, &record::recipe(None), plot)?;
+    if let Some(plot) = &plot {
+        let parts: Vec<Draw> = args.draw.iter().map(|&part| part.into()).collect();
+        let (radial, power) = (spectrum.as_ref().map(|s| &s.radial), spectrum.as_ref().and_then(|s| s.power.as_ref()));
+        let subject = Subject { sets: &sets, name: &title(args), is_local: args.local, most_points: None, radial, power };
+        pool.install(|| write_figure(&subject, &parts, &record::recipe(None), plot)).with_context(|| plot.name())?;
     }
     let found = Found { measured, spectrum };
     let text = if args.json { serde_json::to_string_pretty(&found.json())? + "\n" } else { found.table() };
@@ -78,6 +80,12 @@ impl Spectrum {
             _ => Self { radial: radial_spectrum(sets)?, power: Some(power_spectrum(sets, MAX_FREQUENCY)?) },
         })
     }
+}
+
+/// The first file's name.
+fn title(args: &Analyze) -> String {
+    let name = args.inputs.first().and_then(|path| path.file_stem());
+    name.map_or_else(String::new, |name| if name == "-" { "points".into() } else { name.to_string_lossy().into_owned() })
 }
 
 /// All that was asked for: the measures of each set by its name, and the spectrum of all.

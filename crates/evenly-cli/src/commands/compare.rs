@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use anyhow::bail;
 use clap::ArgMatches;
-use evenly::{CancelToken, Outcome, PointSet, PoissonDiskParams, Rectangle, RunContext, Space, measure, poisson_disk};
-use evenly_io::{Draw, Target, figure};
+use evenly::{CancelToken, Outcome, PointSet, PoissonDiskParams, RunContext, Space, measure, poisson_disk};
+use evenly_io::{Draw, Subject, Target, figure};
 
 use crate::args::Compare;
 use crate::comparison::{Column, Comparison, Run};
@@ -15,6 +15,9 @@ use crate::method_args::start as begin;
 use crate::table::Kind;
 use crate::talk::say;
 use crate::{input, interrupt, record, session};
+
+/// Points in a method's picture.
+const SHOWN: usize = 600;
 
 pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     let methods = if args.methods.is_empty() { Method::all_but_warp() } else { args.methods.clone() };
@@ -85,7 +88,8 @@ impl Runner<'_> {
                 let seed = self.args.seed.wrapping_add(index.into());
                 let Some((run, points)) = self.run(method, seed)? else { continue };
                 if is_drawn && index == 0 {
-                    column.picture = excerpt(&points).and_then(|points| figure(&points, &[Draw::Points], &record::recipe(Some(seed))).ok());
+                    let subject = Subject { most_points: Some(SHOWN), ..(&points).into() };
+                    column.picture = figure(&subject, &[Draw::Points], &record::recipe(Some(seed))).ok();
                 }
                 column.runs.push(run);
                 bar.inc(1);
@@ -153,14 +157,4 @@ impl Runner<'_> {
         let iterations = report.map(|report| report.iterations);
         Ok(Some((Run { seed, seconds, iterations, is_reached, measures }, points)))
     }
-}
-
-/// Of many points those of a corner: a small picture shows no more. `None` where that is lost in rounding.
-fn excerpt(points: &PointSet) -> Option<PointSet> {
-    const MOST: f64 = 600.0;
-    let share = (MOST / points.n_points() as f64).min(1.0).sqrt();
-    let ([x, y], [width, height]) = (points.space().origin(), points.space().size().map(|side| share * side));
-    let corner = Rectangle::new([x, y], [width, height]).ok()?;
-    let positions = points.positions().iter().copied().filter(|p| p[0] <= x + width && p[1] <= y + height).collect();
-    PointSet::new(corner, positions).ok()
 }

@@ -1,0 +1,62 @@
+//! Pictures in pixels, by crate `resvg`, and pages, by crate `krilla`, from our own SVG.
+
+use std::sync::Arc;
+
+use krilla::geom::Size;
+use krilla::metadata::Metadata;
+use krilla::page::PageSettings;
+use krilla_svg::{SurfaceExt as _, SvgSettings};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::fontdb::{Database, Source};
+use resvg::usvg::{Options, Tree};
+
+use crate::figure::FONT;
+
+/// The only font there is, so that a figure looks the same everywhere.
+const FONT_FILE: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
+/// Pixels to a unit of the SVG.
+const SCALE: f32 = 2.0;
+
+/// Renders an SVG as a PNG, two pixels to a unit, on white; the recipe becomes its comment.
+pub(crate) fn png(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {
+    let tree = tree(svg)?;
+    let pixels = |length: f32| (length * SCALE).round().max(1.0) as u32;
+    let mut pixmap = Pixmap::new(pixels(tree.size().width()), pixels(tree.size().height())).ok_or("the picture has no size")?;
+    pixmap.fill(Color::WHITE);
+    resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
+
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::High);
+    // On opaque white, premultiplied colours are plain colours.
+    let written = encoder.add_itxt_chunk("Comment".into(), recipe.into()).and_then(|()| {
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(pixmap.data())?;
+        writer.finish()
+    });
+    written.map(|()| bytes).map_err(|e| e.to_string())
+}
+
+/// Renders an SVG as a page of PDF, a point to a unit, with text as text; the recipe becomes its description.
+pub(crate) fn pdf(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {
+    let tree = tree(svg)?;
+    let (width, height) = (tree.size().width(), tree.size().height());
+    let (size, settings) = Size::from_wh(width, height).zip(PageSettings::from_wh(width, height)).ok_or("the picture has no size")?;
+    let mut document = krilla::Document::new();
+    document.set_metadata(Metadata::new().creator("evenly".into()).description(recipe.into()));
+    let mut page = document.start_page_with(settings);
+    let mut surface = page.surface();
+    surface.draw_svg(&tree, size, SvgSettings::default()).ok_or("the picture cannot be drawn")?;
+    surface.finish();
+    page.finish();
+    document.finish().map_err(|e| format!("{e:?}"))
+}
+
+fn tree(svg: &str) -> Result<Tree, String> {
+    let mut fonts = Database::new();
+    fonts.load_font_source(Source::Binary(Arc::new(FONT_FILE)));
+    let options = Options { fontdb: Arc::new(fonts), font_family: FONT.into(), ..Options::default() };
+    Tree::from_str(svg, &options).map_err(|e| e.to_string())
+}
