@@ -495,6 +495,56 @@ fn a_report_is_a_page_of_every_figure() {
 }
 
 #[test]
+fn a_zone_plate_tells_noise_from_aliasing() {
+    let shell = Shell::new();
+    shell.ok("generate -n 1024 --method white -q -o white.txt");
+    shell.ok("generate -n 1024 --method cvt -q -o cvt.txt");
+    let of = |name: &str| -> Value {
+        serde_json::from_str(&shell.ok(&format!("zoneplate {name}.txt --pixels 256 -o {name}.png --json"))).unwrap()
+    };
+    let (white, cvt) = (of("white"), of("cvt"));
+    let less = |key: &str| cvt[key].as_f64().unwrap() < white[key].as_f64().unwrap();
+    assert!(less("noise") && less("error") && !less("aliasing") && cvt["empty_pixels"] == 0);
+    assert!(fs::read(shell.path("cvt.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(shell.ok("zoneplate cvt.txt --filter gaussian --frequency 1").contains("aliasing"));
+    for (flags, reason) in [
+        ("--pixels 3", "from 16 to 8192"),
+        ("--frequency 0", "above 0"),
+        ("--space rect", "sample 32 x 32 pixels"),
+        ("-o plate.svg", "plate.svg: a picture has pixels; use one of .png"),
+        ("-o cvt.png", "exists already"),
+    ] {
+        assert!(shell.refused(&format!("zoneplate cvt.txt {flags}")).contains(reason), "{flags}");
+    }
+}
+
+#[test]
+fn a_bilateral_filter_needs_few_samples_and_any_picture() {
+    let shell = Shell::new();
+    shell.ok("generate -n 500 -q -o even.txt");
+    shell.ok("generate -n 500 --method white -q -o white.txt");
+    // Any picture will do, such as one of our own.
+    shell.ok("generate -n 50 -q -o picture.png --draw valence");
+    let of = |flags: &str| -> Value { serde_json::from_str(&shell.ok(&format!("bilateral small.png --json --force {flags}"))).unwrap() };
+    shell.ok("zoneplate even.txt --pixels 100 -o small.png");
+    let (even, white) = (of("--samples even.txt -o few.png --full all.png"), of("--samples white.txt"));
+    assert!(even["mean_error"].as_f64().unwrap() < white["mean_error"].as_f64().unwrap() && white["rmse"].as_f64().unwrap() > 0.0);
+    let again: Value =
+        serde_json::from_str(&shell.ok("bilateral few.png --samples even.txt --json -j 1 --kernel 8 --count 10 --range 0.5")).unwrap();
+    assert!(again["rmse"].as_f64().unwrap() < 0.1 && shell.path("all.png").exists());
+    shell.write("broken.png", "\u{89}PNG and no more");
+    for (flags, reason) in [
+        ("broken.png --samples even.txt", "broken.png: not a readable PNG or JPEG"),
+        ("no.png --samples even.txt", "no.png: No such file"),
+        ("even.txt --samples even.txt", "even.txt: not a readable PNG or JPEG"),
+        ("small.png --samples even.txt --kernel 0", "kernel_px is 0"),
+        ("small.png --samples even.txt --space rect --count 900", "are too many"),
+    ] {
+        assert!(shell.refused(&format!("bilateral {flags}")).contains(reason), "{flags}");
+    }
+}
+
+#[test]
 fn text_that_pretends_to_be_numpy_is_still_read() {
     let shell = Shell::new();
     shell.write("text.npy", "0.1 0.2\n0.7 0.1\n0.5 0.9\n");

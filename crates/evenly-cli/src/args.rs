@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Command as Clap, CommandFactory as _, Parser, Subcommand, ValueEnum};
-use evenly::{Error, MAX_POINTS, Rectangle, Space, Torus};
+use evenly::{Error, MAX_POINTS, ReconstructionFilter, Rectangle, Space, Torus};
 use evenly_io::{Draw, Format};
 
 use crate::method::{Method, parser, with_methods};
@@ -38,6 +38,10 @@ pub enum Command {
     Analyze(Analyze),
     /// Run several methods on the same points, and lay their measures side by side
     Compare(Compare),
+    /// Sample the zone plate sin(x^2 + y^2) with points, and measure noise and aliasing
+    Zoneplate(Zoneplate),
+    /// Filter a picture bilaterally with few pixels, chosen by points, and measure the error
+    Bilateral(Bilateral),
     /// Print a completion script for a shell
     Completions {
         /// The shell
@@ -99,9 +103,6 @@ pub struct Analyze {
     pub inputs: Vec<PathBuf>,
     #[command(flatten)]
     pub space: SpaceArgs,
-    /// Print the measures as JSON
-    #[arg(long)]
-    pub json: bool,
     /// The power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON
     #[arg(long)]
     pub spectrum: bool,
@@ -114,12 +115,8 @@ pub struct Analyze {
     /// What the figure shows
     #[arg(long, value_enum, value_delimiter = ',', value_name = "PARTS", default_value = "report", requires = "plot")]
     pub draw: Vec<DrawArg>,
-    /// Overwrite an existing figure
-    #[arg(long)]
-    pub force: bool,
-    /// Threads; the result does not depend on them [default: all]
-    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub measured: MeasuredArgs,
 }
 
 #[derive(Args)]
@@ -160,6 +157,80 @@ pub struct Compare {
     /// Say nothing but errors
     #[arg(short, long, help_heading = "Output")]
     pub quiet: bool,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example:\n  evenly zoneplate points.txt -o plate.png")]
+pub struct Zoneplate {
+    /// Points as .txt, .csv or .npy; - is stdin. One sample a pixel: a torus is repeated, a rectangle must have enough
+    pub input: PathBuf,
+    #[command(flatten)]
+    pub space: SpaceArgs,
+    /// Pixels a side, 16 to 8192
+    #[arg(long, value_name = "N", default_value_t = 512)]
+    pub pixels: usize,
+    /// The wave's frequency at the right side, in waves a pixel: above 0, at most 8
+    #[arg(long, value_name = "F", default_value_t = 1.5)]
+    pub frequency: f64,
+    /// What makes pixels of samples
+    #[arg(long, value_enum, default_value = "mitchell")]
+    pub filter: FilterArg,
+    /// The sampled plate, as .png
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub measured: MeasuredArgs,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example:\n  evenly bilateral photo.png --samples points.txt -o filtered.png")]
+pub struct Bilateral {
+    /// A picture, .png or .jpg; - is stdin
+    pub input: PathBuf,
+    /// Points as .txt, .csv or .npy: where the picture is looked at. A torus is repeated, a rectangle must have enough
+    #[arg(long, value_name = "FILE")]
+    pub samples: PathBuf,
+    #[command(flatten)]
+    pub space: SpaceArgs,
+    /// The kernel's width, in pixels: 2 to 1000
+    #[arg(long, value_name = "PX", default_value_t = 40.0)]
+    pub kernel: f64,
+    /// Samples in a kernel, on average
+    #[arg(long, value_name = "K", default_value_t = 30.0)]
+    pub count: f64,
+    /// How different intensities may be and still be mixed, as a standard deviation; white is 1
+    #[arg(long, value_name = "R", default_value_t = 0.1)]
+    pub range: f64,
+    /// The filtered picture, as .png
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// The picture filtered with all pixels, as .png
+    #[arg(long, value_name = "OUT")]
+    pub full: Option<PathBuf>,
+    #[command(flatten)]
+    pub measured: MeasuredArgs,
+}
+
+/// What verbs that measure take besides.
+#[derive(Args)]
+pub struct MeasuredArgs {
+    /// Print what was measured as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Overwrite existing files
+    #[arg(long)]
+    pub force: bool,
+    /// Threads; the result does not depend on them [default: all]
+    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum FilterArg {
+    /// Piecewise cubic, 4 pixels wide
+    Mitchell,
+    /// A Gaussian 3 pixels wide
+    Gaussian,
 }
 
 #[derive(Args)]
@@ -245,6 +316,15 @@ pub enum DrawArg {
 /// The whole command, with what the table of methods adds to the help.
 pub fn command() -> Clap {
     Cli::command().mut_subcommand("generate", with_methods).mut_subcommand("optimize", with_methods).mut_subcommand("compare", with_methods)
+}
+
+impl From<FilterArg> for ReconstructionFilter {
+    fn from(filter: FilterArg) -> Self {
+        match filter {
+            FilterArg::Mitchell => Self::Mitchell,
+            FilterArg::Gaussian => Self::Gaussian,
+        }
+    }
 }
 
 impl From<DrawArg> for Draw {

@@ -5,6 +5,17 @@ use std::path::Path;
 use anyhow::Context as _;
 use evenly::{PointSet, Space};
 
+use crate::talk::say;
+
+/// Reads points; if some lay outside a torus and were wrapped, it says so.
+pub fn read_and_tell(input: &Path, space: Space) -> anyhow::Result<PointSet> {
+    let (points, note) = read(input, space)?;
+    if let Some(note) = note {
+        say(format_args!("note: {}: {note}", input.display()));
+    }
+    Ok(points)
+}
+
 /// Reads points; on a torus also a note if some lay outside and were wrapped.
 pub fn read(input: &Path, space: Space) -> anyhow::Result<(PointSet, Option<String>)> {
     let positions = evenly_io::read_positions(input)?;

@@ -8,6 +8,7 @@ mod commands;
 mod comparison;
 mod input;
 mod interrupt;
+mod measured;
 mod method;
 mod method_args;
 mod optimizer;
@@ -40,6 +41,8 @@ fn main() -> ExitCode {
         Command::Optimize(args) => commands::optimize::run(args, flags),
         Command::Analyze(args) => commands::analyze::run(args),
         Command::Compare(args) => commands::compare::run(args, flags),
+        Command::Zoneplate(args) => commands::zoneplate::run(args),
+        Command::Bilateral(args) => commands::bilateral::run(args),
         Command::Completions { shell } => commands::shell::completions(*shell),
         Command::Man => commands::shell::man(),
     };

@@ -14,6 +14,12 @@ use crate::{Error, Format, npy, render, text};
 /// # Errors
 /// [`Error`] with the file's name, and the line where there is one.
 pub fn read_positions(path: &Path) -> Result<Vec<[f64; 2]>, Error> {
+    let (name, bytes) = read_bytes(path)?;
+    if bytes.starts_with(b"\x93NUMPY") { npy::read(&name, &bytes) } else { text::read(&name, &bytes) }
+}
+
+/// A file's name for messages, and all that is in it; `-` is stdin.
+pub(crate) fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Error> {
     let name = display_name(path, "stdin");
     let mut bytes = Vec::new();
     if path == OsStr::new("-") {
@@ -21,7 +27,7 @@ pub fn read_positions(path: &Path) -> Result<Vec<[f64; 2]>, Error> {
     } else {
         bytes = std::fs::read(path).map_err(Error::io(&name))?;
     }
-    if bytes.starts_with(b"\x93NUMPY") { npy::read(&name, &bytes) } else { text::read(&name, &bytes) }
+    Ok((name, bytes))
 }
 
 /// Where an output goes, checked before the work begins.
@@ -57,6 +63,17 @@ impl Target {
     /// As [`Self::new`], but for the ending.
     pub fn any(path: &Path, may_overwrite: bool) -> Result<Self, Error> {
         Self::new(path, Some(Format::Txt), may_overwrite)
+    }
+
+    /// A picture of pixels.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and an ending that is not `.png`.
+    pub fn picture(path: &Path, may_overwrite: bool) -> Result<Self, Error> {
+        match Self::new(path, None, may_overwrite)? {
+            target if target.format == Format::Png => Ok(target),
+            target => Err(Error::Format { name: target.name(), problem: "a picture has pixels", choices: ".png".into() }),
+        }
     }
 
     /// Whether it is stdout.

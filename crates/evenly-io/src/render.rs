@@ -11,6 +11,7 @@ use resvg::usvg::fontdb::{Database, Source};
 use resvg::usvg::{Options, Tree};
 
 use crate::figure::FONT;
+use crate::image::encode;
 
 /// The only font there is, so that a figure looks the same everywhere.
 const FONT_FILE: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
@@ -24,19 +25,8 @@ pub(crate) fn png(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {
     let mut pixmap = Pixmap::new(pixels(tree.size().width()), pixels(tree.size().height())).ok_or("the picture has no size")?;
     pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
-
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
     // On opaque white, premultiplied colours are plain colours.
-    let written = encoder.add_itxt_chunk("Comment".into(), recipe.into()).and_then(|()| {
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(pixmap.data())?;
-        writer.finish()
-    });
-    written.map(|()| bytes).map_err(|e| e.to_string())
+    encode(pixmap.data(), pixmap.width(), pixmap.height(), png::ColorType::Rgba, recipe).map_err(|e| e.to_string())
 }
 
 /// Renders an SVG as a page of PDF, a point to a unit, with text as text; the recipe becomes its description.

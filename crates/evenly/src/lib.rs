@@ -16,6 +16,7 @@
 //! [`PointSet::hex_spacing`]. Positions are in whatever units the domain has.
 
 mod error;
+mod imaging;
 mod measure;
 mod optimize;
 mod points;
@@ -27,6 +28,9 @@ mod sweep;
 mod triangulation;
 
 pub use error::Error;
+pub use imaging::{
+    BilateralParams, Image, ImageDifference, ReconstructionFilter, ZonePlate, ZonePlateParams, bilateral, subsampled_bilateral, zone_plate,
+};
 pub use measure::{
     BorderMeasures, Measures, PowerSpectrum, RadialSpectrum, Tessellation, differential_spectrum, local_spacings, measure, power_spectrum,
     radial_spectrum, tessellate,

@@ -1,6 +1,5 @@
 //! `evenly analyze`: the proof.
 
-use std::fmt::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -8,12 +7,12 @@ use anyhow::{Context as _, bail};
 use evenly::{
     Measures, PointSet, PowerSpectrum, RadialSpectrum, differential_spectrum, local_spacings, measure, power_spectrum, radial_spectrum,
 };
-use evenly_io::{Draw, Format, Subject, Target, write_figure};
+use evenly_io::{Draw, Subject, Target, write_figure};
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::args::Analyze;
-use crate::talk::say;
+use crate::measured::{self, fields, line, shown};
 use crate::{input, record, session};
 
 /// Up to which frequency the power is looked at, in inverse mean spacings.
@@ -22,7 +21,7 @@ const MAX_FREQUENCY: f64 = 4.0;
 pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
     let plot = match &args.plot {
-        Some(path) => Some(Target::new(path, None, args.force)?),
+        Some(path) => Some(Target::new(path, None, args.measured.force)?),
         None => None,
     };
     if let Some(plot) = plot.as_ref().filter(|plot| plot.format().holds_points()) {
@@ -31,15 +30,8 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     if args.local && args.inputs.len() > 1 {
         bail!("--local is for one set");
     }
-    let mut sets = Vec::new();
-    for path in &args.inputs {
-        let (points, note) = input::read(path, space)?;
-        if let Some(note) = note {
-            say(format_args!("note: {}: {note}", path.display()));
-        }
-        sets.push(points);
-    }
-    let pool = session::pool(args.threads)?;
+    let sets: Vec<PointSet> = args.inputs.iter().map(|path| input::read_and_tell(path, space)).collect::<anyhow::Result<_>>()?;
+    let pool = session::pool(args.measured.threads)?;
     let names = || args.inputs.iter().map(|path| path.display().to_string());
     let measured = names().zip(&sets).map(|(name, points)| Ok((name.clone(), pool.install(|| measure(points)).context(name)?)));
     let measured: Vec<(String, Measures)> = measured.collect::<anyhow::Result<_>>()?;
@@ -55,9 +47,7 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
         pool.install(|| write_figure(&subject, &parts, &record::recipe(None), plot)).with_context(|| plot.name())?;
     }
     let found = Found { measured, spectrum };
-    let text = if args.json { serde_json::to_string_pretty(&found.json())? + "\n" } else { found.table() };
-    Target::new("-".as_ref(), Some(Format::Txt), false)?.write(text.as_bytes())?;
-    Ok(ExitCode::SUCCESS)
+    measured::print(&found.json(), args.measured.json, || found.table())
 }
 
 /// Sets side by side in the table, before the next go below.
@@ -132,24 +122,5 @@ impl Found {
             }
         }
         text
-    }
-}
-
-fn fields(value: Value) -> serde_json::Map<String, Value> {
-    if let Value::Object(fields) = value { fields } else { serde_json::Map::new() }
-}
-
-fn line(text: &mut String, name: &str, values: impl Iterator<Item = String>) {
-    let values: Vec<String> = values.map(|value| format!("{value:<24}")).collect();
-    let _ = writeln!(text, "{}", format!("{name:<24} {}", values.join(" ")).trim_end());
-}
-
-fn shown(name: &str, value: &Value) -> String {
-    match value {
-        Value::Number(number) if number.is_f64() => format!("{:.5}", number.as_f64().unwrap_or(f64::NAN)),
-        Value::Object(counts) => counts.iter().map(|(key, count)| format!("{key}: {count}")).collect::<Vec<_>>().join(", "),
-        Value::Null if name == "beta" => "infinite".into(),
-        Value::Null => "-".into(),
-        other => other.to_string(),
     }
 }

@@ -1,7 +1,9 @@
 //! The verbs, one file each.
 
 pub mod analyze;
+pub mod bilateral;
 pub mod compare;
 pub mod generate;
 pub mod optimize;
 pub mod shell;
+pub mod zoneplate;

@@ -4,6 +4,7 @@ use base64::Engine as _;
 use evenly::PowerSpectrum;
 
 use super::svg::{Short, inset};
+use crate::image::encode;
 
 /// The powers that are black and white.
 const POWERS: [f64; 2] = [1e-2, 1e1];
@@ -28,7 +29,7 @@ pub(super) fn waves(spectrum: &PowerSpectrum, place: [f64; 2], size: [f64; 2]) -
     let [low, high] = POWERS.map(f64::ln);
     let grey = |[sum, n]: [f64; 2]| (255.0 * ((sum / n).max(POWERS[0]).ln() - low) / (high - low)).clamp(0.0, 255.0) as u8;
     let pixels: Vec<u8> = sums.into_iter().map(grey).collect();
-    let Ok(png) = grey_png(&pixels, width as u32, height as u32) else { return String::new() };
+    let Ok(png) = encode(&pixels, width as u32, height as u32, png::ColorType::Grayscale, "") else { return String::new() };
     let data = base64::engine::general_purpose::STANDARD.encode(png);
     let image = format!(
         "<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" href=\"data:image/png;base64,{data}\"/>\n",
@@ -36,16 +37,4 @@ pub(super) fn waves(spectrum: &PowerSpectrum, place: [f64; 2], size: [f64; 2]) -
         Short(size[1])
     );
     inset(place, size, size, &image)
-}
-
-fn grey_png(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Grayscale);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
-    writer.finish()?;
-    Ok(bytes)
 }

@@ -1,0 +1,29 @@
+//! `evenly bilateral`: how well a few pixels, chosen by points, stand for all.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::Context as _;
+use evenly::{BilateralParams, bilateral, subsampled_bilateral};
+use evenly_io::{Target, read_image, write_image};
+
+use crate::args::Bilateral;
+use crate::{input, measured, record, session};
+
+pub fn run(args: &Bilateral) -> anyhow::Result<ExitCode> {
+    let target = |path: &Option<PathBuf>| path.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose();
+    let (output, full) = (target(&args.output)?, target(&args.full)?);
+    let image = read_image(&args.input)?;
+    let samples = input::read_and_tell(&args.samples, args.space.space()?)?;
+    let params = BilateralParams { kernel_px: args.kernel, range: args.range, n_samples: args.count };
+    let pool = session::pool(args.measured.threads)?;
+    let few = pool.install(|| subsampled_bilateral(&image, &samples, &params)).with_context(|| args.samples.display().to_string())?;
+    let all = pool.install(|| bilateral(&image, &params))?;
+    for (image, target) in [(&few, &output), (&all, &full)] {
+        if let Some(target) = target {
+            write_image(image, &record::recipe(None), target)?;
+        }
+    }
+    let json = serde_json::json!(few.difference(&all)?);
+    measured::print(&json, args.measured.json, || measured::table(&json))
+}

@@ -1,0 +1,23 @@
+//! `evenly zoneplate`: how points sample waves.
+
+use std::process::ExitCode;
+
+use anyhow::Context as _;
+use evenly::{ZonePlateParams, zone_plate};
+use evenly_io::{Target, write_image};
+
+use crate::args::Zoneplate;
+use crate::{input, measured, record, session};
+
+pub fn run(args: &Zoneplate) -> anyhow::Result<ExitCode> {
+    let output = args.output.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose()?;
+    let points = input::read_and_tell(&args.input, args.space.space()?)?;
+    let params = ZonePlateParams { pixels: args.pixels, max_frequency: args.frequency, filter: args.filter.into() };
+    let pool = session::pool(args.measured.threads)?;
+    let plate = pool.install(|| zone_plate(&points, &params)).with_context(|| args.input.display().to_string())?;
+    if let Some(output) = &output {
+        write_image(&plate.image, &record::recipe(None), output)?;
+    }
+    let json = serde_json::json!(plate);
+    measured::print(&json, args.measured.json, || measured::table(&json))
+}

@@ -1,0 +1,72 @@
+//! Pictures: PNG and JPEG in, PNG out.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use evenly::Image;
+use image::{DynamicImage, ImageReader};
+
+use crate::file::read_bytes;
+use crate::{Error, Target};
+
+/// Reads a PNG or JPEG, of 8 or 16 bits, grey or in colour; what is transparent lies on white. `-` is stdin.
+///
+/// # Errors
+/// [`Error`] with the file's name, for what is no such picture, and for more than [`Image::MOST_PIXELS`].
+pub fn read_image(path: &Path) -> Result<Image, Error> {
+    let (name, bytes) = read_bytes(path)?;
+    let unreadable = |e: image::ImageError| Error::content(&name, format!("not a readable PNG or JPEG ({e})"));
+    let reader = || {
+        let mut reader = ImageReader::new(Cursor::new(&bytes));
+        reader.no_limits();
+        reader.with_guessed_format().map_err(|e| unreadable(e.into()))
+    };
+    let (width, height) = reader()?.into_dimensions().map_err(unreadable)?;
+    if width as usize * height as usize > Image::MOST_PIXELS {
+        let problem = format!("{width} x {height} pixels; at most {} are possible: make it smaller", Image::MOST_PIXELS);
+        return Err(Error::content(&name, problem));
+    }
+    let picture = reader()?.decode().map_err(unreadable)?;
+    let (n_channels, values) = values(picture);
+    Image::new(width as usize, height as usize, n_channels, values).map_err(|e| Error::content(&name, e.to_string()))
+}
+
+/// One number or three a pixel.
+fn values(picture: DynamicImage) -> (usize, Vec<f64>) {
+    let has_colour = picture.color().has_color();
+    if !picture.color().has_alpha() {
+        return match has_colour {
+            true => (3, picture.into_rgb32f().into_raw().into_iter().map(f64::from).collect()),
+            false => (1, picture.into_luma16().into_raw().into_iter().map(|grey| f64::from(grey) / 65535.0).collect()),
+        };
+    }
+    let on_white = |value: f32, alpha: f32| f64::from(value * alpha + 1.0 - alpha);
+    let pixels = picture.into_rgba32f().into_raw();
+    let n_channels = if has_colour { 3 } else { 1 };
+    (n_channels, pixels.chunks_exact(4).flat_map(|p| p[..n_channels].iter().map(|&value| on_white(value, p[3]))).collect())
+}
+
+/// Writes a picture to a [`Target::picture`], as PNG of 8 bits a channel; values below 0 and above 1 are cut off. The recipe becomes its comment.
+///
+/// # Errors
+/// As [`Target::write`].
+pub fn write_image(image: &Image, recipe: &str, target: &Target) -> Result<(), Error> {
+    let pixels: Vec<u8> = image.values().iter().map(|value| (255.0 * value.clamp(0.0, 1.0)).round() as u8).collect();
+    let colour = if image.n_channels() == 3 { png::ColorType::Rgb } else { png::ColorType::Grayscale };
+    let bytes = encode(&pixels, image.width() as u32, image.height() as u32, colour, recipe);
+    target.write(&bytes.map_err(|e| Error::content(target.name(), e.to_string()))?)
+}
+
+/// A PNG of 8 bits a channel, with a comment.
+pub(crate) fn encode(pixels: &[u8], width: u32, height: u32, colour: png::ColorType, comment: &str) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(colour);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::High);
+    encoder.add_itxt_chunk("Comment".into(), comment.into())?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(bytes)
+}
