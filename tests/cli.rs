@@ -545,6 +545,32 @@ fn a_bilateral_filter_needs_few_samples_and_any_picture() {
 }
 
 #[test]
+fn a_paper_is_reproduced_part_by_part_and_goes_on_after_an_interruption() {
+    let shell = Shell::new();
+    // What an earlier run left is kept; what another version left, or is broken, is done again.
+    fs::create_dir_all(shell.path("procrustes-quick.parts")).unwrap();
+    let kept = r#"{"about":"kept from before","tables":[],"figures":[],"remarks":[],"seconds":1}"#;
+    shell.write("procrustes-quick.parts/figure-5.json", &format!("[\"{}\",{kept}]", env!("CARGO_PKG_VERSION")));
+    shell.write("procrustes-quick.parts/figure-1.json", &format!("[\"0.0.0\",{kept}]"));
+    shell.write("procrustes-quick.parts/table-1.json", "broken");
+    shell.ok("reproduce procrustes --quick");
+    let page = shell.read("procrustes-quick.html");
+    assert_eq!(page.matches("kept from before").count(), 1);
+    assert!(page.contains("<h2>Table 1</h2>") && page.contains("angle RMS error") && page.contains("<i>11.70</i>"), "{}", page.len());
+    let json: Value = serde_json::from_str(&shell.read("procrustes-quick.json")).unwrap();
+    let parts: Vec<&str> = json["parts"].as_array().unwrap().iter().map(|part| part["name"].as_str().unwrap()).collect();
+    assert_eq!(parts, ["Figure 1", "Figure 4", "Figure 5", "Table 1"]);
+    let rows = json["parts"][3]["tables"][0]["rows"].as_array().unwrap();
+    let ours = rows.iter().find(|row| row["name"] == "Procrustes, paper mode").unwrap();
+    assert!(ours["cells"][0]["paper"] == 11.7 && (11.0..13.0).contains(&ours["cells"][0]["ours"].as_f64().unwrap()));
+    assert!(!shell.path("procrustes-quick.parts").exists());
+    assert!(shell.refused("reproduce procrustes --quick").contains("exists already"));
+    assert!(shell.refused("reproduce nothing").contains("opt-beta"));
+    shell.write("file", "");
+    assert!(shell.refused("reproduce opt-beta -o file").starts_with("error: file: "));
+}
+
+#[test]
 fn text_that_pretends_to_be_numpy_is_still_read() {
     let shell = Shell::new();
     shell.write("text.npy", "0.1 0.2\n0.7 0.1\n0.5 0.9\n");

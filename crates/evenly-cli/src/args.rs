@@ -42,6 +42,8 @@ pub enum Command {
     Zoneplate(Zoneplate),
     /// Filter a picture bilaterally with few pixels, chosen by points, and measure the error
     Bilateral(Bilateral),
+    /// Compute a paper's tables and figures anew, beside the printed numbers
+    Reproduce(Reproduce),
     /// Print a completion script for a shell
     Completions {
         /// The shell
@@ -209,6 +211,38 @@ pub struct Bilateral {
     pub full: Option<PathBuf>,
     #[command(flatten)]
     pub measured: MeasuredArgs,
+}
+
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  evenly reproduce push-pull --quick -o pages\n\nInterrupted, it leaves the parts that are done, and the same command goes on with the others."
+)]
+pub struct Reproduce {
+    /// The paper: Papazov and Hege 2017; Ahmed, Guo, Yan et al. 2017; Ebeida et al. 2014
+    #[arg(value_parser = ["procrustes", "push-pull", "opt-beta"])]
+    pub paper: String,
+    /// The folder for PAPER.html and PAPER.json, with --quick PAPER-quick.html and PAPER-quick.json
+    #[arg(short, long, value_name = "DIR", default_value = ".")]
+    pub output: PathBuf,
+    /// Fewer points and sets: under two minutes
+    #[arg(long)]
+    pub quick: bool,
+    #[command(flatten)]
+    pub run: LongArgs,
+}
+
+/// What long work takes besides.
+#[derive(Args)]
+pub struct LongArgs {
+    /// Overwrite existing files
+    #[arg(long)]
+    pub force: bool,
+    /// Threads; the result does not depend on them [default: all]
+    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// What verbs that measure take besides.

@@ -14,6 +14,7 @@ mod method_args;
 mod optimizer;
 mod page;
 mod record;
+mod reproduce;
 mod session;
 mod table;
 mod talk;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         Command::Compare(args) => commands::compare::run(args, flags),
         Command::Zoneplate(args) => commands::zoneplate::run(args),
         Command::Bilateral(args) => commands::bilateral::run(args),
+        Command::Reproduce(args) => commands::reproduce::run(args),
         Command::Completions { shell } => commands::shell::completions(*shell),
         Command::Man => commands::shell::man(),
     };

@@ -1,4 +1,4 @@
-//! A comparison as a page of HTML that needs nothing else.
+//! Pages of HTML that need nothing else; a comparison as one.
 
 use std::fmt::Write as _;
 
@@ -9,16 +9,24 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 90rem
 h1 { font-size: 1.4rem } code { font-size: .9em }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(14rem, 1fr)); gap: 1rem }
 figure { margin: 0 } figure svg { width: 100%; height: auto; border: 1px solid #ccc; background: #fff }
-figcaption { text-align: center }
-.wide { overflow-x: auto } table { border-collapse: collapse; font-variant-numeric: tabular-nums }
+figcaption { text-align: center } ul { padding-left: 1.2rem } i { color: #666 }
+.figures { display: flex; flex-wrap: wrap; gap: 1rem } .figures figure { flex: 1 1 22rem; max-width: 60rem }
+.wide { overflow-x: auto; margin: 1rem 0 } section { border-top: 1px solid #ccc; margin-top: 2rem } table { border-collapse: collapse; font-variant-numeric: tabular-nums }
 th, td { padding: .2rem .7rem; text-align: right; white-space: nowrap; border-bottom: 1px solid #ddd }
 th:first-child { text-align: left; position: sticky; left: 0; background: #fff } tr:hover td { background: #f2f6fa }";
 
+/// A whole page.
+pub fn document(title: &str, body: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{}</title>\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<style>\n{STYLE}\n</style></head>\n<body>\n{body}</body>\n</html>\n",
+        escaped(title)
+    )
+}
+
 pub fn page(comparison: &Comparison) -> String {
     let mut text = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>evenly compare</title>\n\
-         <meta name=\"viewport\" content=\"width=device-width\">\n<style>\n{STYLE}\n</style></head>\n<body>\n\
-         <h1>Methods side by side</h1>\n<p>{}. Lengths are in hexagonal spacings. Made by <code>{}</code>, evenly {}.</p>\n",
+        "<h1>Methods side by side</h1>\n<p>{}. Lengths are in hexagonal spacings. Made by <code>{}</code>, evenly {}.</p>\n",
         escaped(&comparison.title()),
         escaped(&comparison.command),
         comparison.version
@@ -42,10 +50,10 @@ pub fn page(comparison: &Comparison) -> String {
         }
         text.push_str("</tr>\n");
     }
-    text.push_str("</table></div>\n</body>\n</html>\n");
-    text
+    text.push_str("</table></div>\n");
+    document("evenly compare", &text)
 }
 
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

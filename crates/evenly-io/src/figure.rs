@@ -4,14 +4,29 @@ mod chart;
 mod curves;
 mod map;
 mod page;
+mod series;
 mod svg;
 mod waves;
 
+use evenly::Image;
+
 use crate::Error;
+pub use chart::Axis;
 use page::Page;
 pub use page::Subject;
+pub use series::{Curve, chart};
 pub(crate) use svg::FONT;
 use svg::drawing;
+
+/// A picture of pixels as SVG, a pixel to a unit, for pages that hold several.
+pub fn picture(image: &Image) -> String {
+    let pixels = crate::image::bytes(image);
+    let size = [image.width() as f64, image.height() as f64];
+    let Ok(png) = crate::image::encode(&pixels, image.width() as u32, image.height() as u32, crate::image::colour(image), "") else {
+        return String::new();
+    };
+    drawing(size, "", &svg::embedded(&png, size))
+}
 
 /// What a figure shows: layers of a map, which lie on each other in this order, charts, and a page of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

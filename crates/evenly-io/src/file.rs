@@ -165,6 +165,14 @@ impl Target {
     }
 }
 
+/// Makes a folder, and those that it lies in, where they are missing.
+///
+/// # Errors
+/// What the operating system says.
+pub fn make_folder(path: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(path).map_err(Error::io(&path.display().to_string()))
+}
+
 /// Writes points, or a figure of them, as the target's format has it. The recipe goes along where the format has room for a comment.
 ///
 /// # Errors

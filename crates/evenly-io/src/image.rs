@@ -51,10 +51,17 @@ fn values(picture: DynamicImage) -> (usize, Vec<f64>) {
 /// # Errors
 /// As [`Target::write`].
 pub fn write_image(image: &Image, recipe: &str, target: &Target) -> Result<(), Error> {
-    let pixels: Vec<u8> = image.values().iter().map(|value| (255.0 * value.clamp(0.0, 1.0)).round() as u8).collect();
-    let colour = if image.n_channels() == 3 { png::ColorType::Rgb } else { png::ColorType::Grayscale };
-    let bytes = encode(&pixels, image.width() as u32, image.height() as u32, colour, recipe);
+    let bytes = encode(&bytes(image), image.width() as u32, image.height() as u32, colour(image), recipe);
     target.write(&bytes.map_err(|e| Error::content(target.name(), e.to_string()))?)
+}
+
+/// 8 bits a channel.
+pub(crate) fn bytes(image: &Image) -> Vec<u8> {
+    image.values().iter().map(|value| (255.0 * value.clamp(0.0, 1.0)).round() as u8).collect()
+}
+
+pub(crate) fn colour(image: &Image) -> png::ColorType {
+    if image.n_channels() == 3 { png::ColorType::Rgb } else { png::ColorType::Grayscale }
 }
 
 /// A PNG of 8 bits a channel, with a comment.

@@ -9,10 +9,12 @@ mod format;
 mod image;
 mod npy;
 mod render;
+mod scraps;
 mod text;
 
 pub use error::Error;
-pub use figure::{Draw, Subject, figure};
-pub use file::{Target, read_positions, write_figure, write_points};
+pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture};
+pub use file::{Target, make_folder, read_positions, write_figure, write_points};
 pub use format::Format;
 pub use image::{read_image, write_image};
+pub use scraps::Scraps;

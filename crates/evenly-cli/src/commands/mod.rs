@@ -5,5 +5,6 @@ pub mod bilateral;
 pub mod compare;
 pub mod generate;
 pub mod optimize;
+pub mod reproduce;
 pub mod shell;
 pub mod zoneplate;

@@ -9,32 +9,70 @@ const MARGINS: [f64; 4] = [46.0, 40.0, 10.0, 8.0];
 const SMALL: f64 = 11.0;
 
 /// What one axis shows.
-pub(super) struct Axis {
-    pub name: &'static str,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis<'a> {
+    /// Its name, with the unit.
+    pub name: &'a str,
+    /// Its ends.
     pub range: [f64; 2],
+    /// Whether equal lengths are equal ratios; the range is positive then.
+    pub is_log: bool,
+}
+
+impl<'a> Axis<'a> {
+    /// An even axis.
+    pub fn new(name: &'a str, range: [f64; 2]) -> Self {
+        Self { name, range, is_log: false }
+    }
+
+    /// An axis of ratios.
+    pub fn log(name: &'a str, range: [f64; 2]) -> Self {
+        Self { name, range, is_log: true }
+    }
+
+    /// Where a value lies, from 0 at the axis' begin to 1 at its end.
+    fn share(&self, value: f64) -> f64 {
+        let scale = |value: f64| if self.is_log { value.max(1e-300).ln() } else { value };
+        let [low, high] = self.range.map(scale);
+        (scale(value) - low) / (high - low)
+    }
+
+    /// Round numbers along it, as they are written.
+    fn ticks(&self) -> Vec<(f64, String)> {
+        if !self.is_log {
+            return ticks(self.range);
+        }
+        let [low, high] = self.range.map(f64::log10);
+        let powers = (low - 1e-9).ceil() as i32..=(high + 1e-9).floor() as i32;
+        let written = |power: i32| match power {
+            0..=3 => format!("{}", 10f64.powi(power)),
+            -2..=-1 => format!("{:.*}", -power as usize, 10f64.powi(power)),
+            _ => format!("1e{power}").replace('-', "\u{2212}"),
+        };
+        powers.map(|power| (10f64.powi(power), written(power))).collect()
+    }
 }
 
 /// A chart in the making.
-pub(super) struct Chart {
-    x: Axis,
-    y: Axis,
+pub(super) struct Chart<'a> {
+    x: Axis<'a>,
+    y: Axis<'a>,
     /// Of the area within the axes.
     size: [f64; 2],
     /// What is drawn within the axes.
     body: String,
 }
 
-impl Chart {
+impl<'a> Chart<'a> {
     /// An empty chart of this size, axes and their numbers included.
-    pub fn new(size: [f64; 2], x: Axis, y: Axis) -> Self {
+    pub fn new(size: [f64; 2], x: Axis<'a>, y: Axis<'a>) -> Self {
         let [left, bottom, right, top] = MARGINS;
         Self { x, y, size: [size[0] - left - right, size[1] - bottom - top], body: String::new() }
     }
 
     fn place(&self, x: f64, y: f64) -> [f64; 2] {
-        let share = |axis: &Axis, at: f64| (at - axis.range[0]) / (axis.range[1] - axis.range[0]);
         // Far outside is as good as farther, and some programs lose count of large numbers.
-        let [x, y] = [share(&self.x, x), 1.0 - share(&self.y, y)].map(|share| share.clamp(-10.0, 10.0));
+        let [x, y] = [self.x.share(x), 1.0 - self.y.share(y)].map(|share| share.clamp(-10.0, 10.0));
         [x * self.size[0], y * self.size[1]]
     }
 
@@ -51,10 +89,9 @@ impl Chart {
             let _ = write!(path, "{}{} {}", if is_broken { 'M' } else { 'L' }, Short(x), Short(y));
             is_broken = false;
         }
-        let dashes = if dashes.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dashes}\"") };
         let _ = writeln!(
             self.body,
-            "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{dashes} stroke-linejoin=\"round\" d=\"{path}\"/>"
+            "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dashes}\" stroke-linejoin=\"round\" d=\"{path}\"/>"
         );
     }
 
@@ -101,13 +138,13 @@ impl Chart {
             Short(height)
         );
         let mut marks = String::new();
-        for (at, name) in ticks(self.x.range) {
-            let [tick, _] = self.place(at, 0.0);
+        for (at, name) in self.x.ticks() {
+            let [tick, _] = self.place(at, self.y.range[0]);
             let _ = write!(marks, "M{} {}v4", Short(x + tick), Short(y + height));
             text(svg, [x + tick, y + height + 16.0], SMALL, Anchor::Middle, &name);
         }
-        for (at, name) in ticks(self.y.range) {
-            let [_, tick] = self.place(0.0, at);
+        for (at, name) in self.y.ticks() {
+            let [_, tick] = self.place(self.x.range[0], at);
             let _ = write!(marks, "M{} {}h-4", Short(x), Short(y + tick));
             text(svg, [x - 7.0, y + tick + 4.0], SMALL, Anchor::End, &name);
         }
@@ -120,7 +157,7 @@ impl Chart {
 }
 
 /// A range's round numbers, some five of them, as they are written.
-pub(super) fn ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
+fn ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
     let rough = (high - low) / 5.0;
     let power = 10f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power).into_iter().find(|step| *step >= 0.999 * rough).unwrap_or(rough);

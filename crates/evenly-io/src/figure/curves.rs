@@ -9,37 +9,36 @@ const BLUE: &str = "#56b4e9";
 const FREQUENCY: &str = "frequency (inverse mean spacings)";
 
 /// The radial mean of the power: by distances, and below it over rings of the lattice.
-pub(super) fn radial_power(size: [f64; 2], radial: &RadialSpectrum, power: Option<&PowerSpectrum>) -> Chart {
+pub(super) fn radial_power(size: [f64; 2], radial: &RadialSpectrum, power: Option<&PowerSpectrum>) -> Chart<'static> {
     let most = power.map_or(4.0, |power| power.max_frequency);
     let shown = || radial.frequencies.iter().copied().zip(radial.radial_power.iter().copied()).filter(|&(f, _)| f <= most);
     let high = shown().map(|(_, power)| power).fold(2.0, f64::max);
     let ring = power.iter().flat_map(|power| &power.ring_power).copied().fold(high, f64::max);
     // A lattice's peaks would leave nothing else to see.
     let high = round_up(ring.min(1.5 * high));
-    let mut chart = Chart::new(size, Axis { name: FREQUENCY, range: [0.0, most] }, Axis { name: "power", range: [0.0, high] });
+    let mut chart = Chart::new(size, Axis::new(FREQUENCY, [0.0, most]), Axis::new("power", [0.0, high]));
     chart.level(1.0);
     if let Some(power) = power {
-        chart.curve(power.ring_frequencies.iter().copied().zip(power.ring_power.iter().copied()), BLUE, 1.0, "");
+        chart.curve(power.ring_frequencies.iter().copied().zip(power.ring_power.iter().copied()), BLUE, 1.0, "none");
     }
-    chart.curve(shown(), BLACK, 1.4, "");
+    chart.curve(shown(), BLACK, 1.4, "none");
     chart.upright(radial.effective_nyquist);
     chart.note(0, &format!("effective Nyquist {:.3}", radial.effective_nyquist));
     chart.note(1, &format!("oscillation {:.3}", radial.oscillation));
     chart
 }
 
-pub(super) fn anisotropy(size: [f64; 2], power: &PowerSpectrum) -> Chart {
+pub(super) fn anisotropy(size: [f64; 2], power: &PowerSpectrum) -> Chart<'static> {
     let none = -10.0 * (power.n_sets as f64).log10();
-    let (x, y) =
-        (Axis { name: FREQUENCY, range: [0.0, power.max_frequency] }, Axis { name: "anisotropy (dB)", range: [none - 10.0, none + 15.0] });
+    let (x, y) = (Axis::new(FREQUENCY, [0.0, power.max_frequency]), Axis::new("anisotropy (dB)", [none - 10.0, none + 15.0]));
     let mut chart = Chart::new(size, x, y);
     chart.level(none);
-    chart.curve(power.ring_frequencies.iter().copied().zip(power.anisotropy_db.iter().copied()), BLACK, 1.0, "");
+    chart.curve(power.ring_frequencies.iter().copied().zip(power.anisotropy_db.iter().copied()), BLACK, 1.0, "none");
     chart
 }
 
 /// The pair correlation, up to five spacings, in bins of a twentieth: finer ones are mostly chance.
-pub(super) fn pair_correlation(size: [f64; 2], radial: &RadialSpectrum) -> Chart {
+pub(super) fn pair_correlation(size: [f64; 2], radial: &RadialSpectrum) -> Chart<'static> {
     const WIDTH: f64 = 0.05;
     let mut bins: Vec<[f64; 2]> = Vec::new();
     for (&r, &g) in radial.distances.iter().zip(&radial.pair_correlation).take_while(|(r, _)| **r < 5.0) {
@@ -51,15 +50,15 @@ pub(super) fn pair_correlation(size: [f64; 2], radial: &RadialSpectrum) -> Chart
     }
     let means = || bins.iter().enumerate().map(|(bin, [sum, weight])| ((bin as f64 + 0.5) * WIDTH, sum / weight));
     let high = round_up(means().map(|(_, g)| g).fold(2.0, f64::max));
-    let (x, y) = (Axis { name: "distance (mean spacings)", range: [0.0, 5.0] }, Axis { name: "pair correlation", range: [0.0, high] });
+    let (x, y) = (Axis::new("distance (mean spacings)", [0.0, 5.0]), Axis::new("pair correlation", [0.0, high]));
     let mut chart = Chart::new(size, x, y);
     chart.level(1.0);
-    chart.curve(means(), BLACK, 1.4, "");
+    chart.curve(means(), BLACK, 1.4, "none");
     chart
 }
 
 /// How the angles of all triangles are spread, in bins of two degrees.
-pub(super) fn angles(size: [f64; 2], tessellation: &Tessellation) -> Chart {
+pub(super) fn angles(size: [f64; 2], tessellation: &Tessellation) -> Chart<'static> {
     const WIDTH: f64 = 2.0;
     let mut counts = [0usize; 90];
     for corners in &tessellation.corners {
@@ -73,7 +72,7 @@ pub(super) fn angles(size: [f64; 2], tessellation: &Tessellation) -> Chart {
     let all = counts.iter().sum::<usize>().max(1) as f64;
     let share = |n: usize| 100.0 * n as f64 / all / WIDTH;
     let high = round_up(share(counts.iter().copied().max().unwrap_or(1)).max(1.0));
-    let (x, y) = (Axis { name: "angle (degrees)", range: [0.0, 180.0] }, Axis { name: "angles (% per degree)", range: [0.0, high] });
+    let (x, y) = (Axis::new("angle (degrees)", [0.0, 180.0]), Axis::new("angles (% per degree)", [0.0, high]));
     let mut chart = Chart::new(size, x, y);
     chart.bars(WIDTH, counts.iter().enumerate().map(|(bin, &n)| (bin as f64 * WIDTH, share(n))), "#4477aa");
     chart.upright(90.0);

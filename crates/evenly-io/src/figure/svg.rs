@@ -2,6 +2,8 @@
 
 use std::fmt::{Display, Write as _};
 
+use base64::Engine as _;
+
 /// The family of all text; without it, whatever the reader's program has.
 pub(crate) const FONT: &str = "DejaVu Sans";
 
@@ -36,6 +38,15 @@ pub(super) fn drawing(size: [f64; 2], recipe: &str, body: &str) -> String {
 pub(super) fn inset(place: [f64; 2], size: [f64; 2], units: [f64; 2], body: &str) -> String {
     let ([x, y], [width, height], [w, h]) = (place.map(Short), size.map(Short), units.map(Short));
     format!("<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\">\n{body}</svg>\n")
+}
+
+/// A PNG as large as this, its pixels sharp.
+pub(super) fn embedded(png: &[u8], size: [f64; 2]) -> String {
+    let data = base64::engine::general_purpose::STANDARD.encode(png);
+    let [width, height] = size.map(Short);
+    format!(
+        "<image width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" href=\"data:image/png;base64,{data}\"/>\n"
+    )
 }
 
 /// A line of text.

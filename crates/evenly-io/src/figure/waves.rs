@@ -1,9 +1,8 @@
 //! The power spectrum as a picture: log grey, the frequency 0 in the middle.
 
-use base64::Engine as _;
 use evenly::PowerSpectrum;
 
-use super::svg::{Short, inset};
+use super::svg::{embedded, inset};
 use crate::image::encode;
 
 /// The powers that are black and white.
@@ -30,11 +29,5 @@ pub(super) fn waves(spectrum: &PowerSpectrum, place: [f64; 2], size: [f64; 2]) -
     let grey = |[sum, n]: [f64; 2]| (255.0 * ((sum / n).max(POWERS[0]).ln() - low) / (high - low)).clamp(0.0, 255.0) as u8;
     let pixels: Vec<u8> = sums.into_iter().map(grey).collect();
     let Ok(png) = encode(&pixels, width as u32, height as u32, png::ColorType::Grayscale, "") else { return String::new() };
-    let data = base64::engine::general_purpose::STANDARD.encode(png);
-    let image = format!(
-        "<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" href=\"data:image/png;base64,{data}\"/>\n",
-        Short(size[0]),
-        Short(size[1])
-    );
-    inset(place, size, size, &image)
+    inset(place, size, size, &embedded(&png, size))
 }

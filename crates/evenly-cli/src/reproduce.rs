@@ -1,0 +1,16 @@
+//! The papers' tables and figures, computed anew.
+
+mod html;
+mod lab;
+mod opt_beta;
+mod part;
+mod procrustes;
+mod push_pull;
+mod study;
+
+pub use html::html;
+pub use lab::Lab;
+pub use study::{Done, Study};
+
+/// The papers.
+pub const STUDIES: [Study; 3] = [procrustes::STUDY, push_pull::STUDY, opt_beta::STUDY];
