@@ -550,8 +550,8 @@ fn a_paper_is_reproduced_part_by_part_and_goes_on_after_an_interruption() {
     // What an earlier run left is kept; what another version left, or is broken, is done again.
     fs::create_dir_all(shell.path("procrustes-quick.parts")).unwrap();
     let kept = r#"{"about":"kept from before","tables":[],"figures":[],"remarks":[],"seconds":1}"#;
-    shell.write("procrustes-quick.parts/figure-5.json", &format!("[\"{}\",{kept}]", env!("CARGO_PKG_VERSION")));
-    shell.write("procrustes-quick.parts/figure-1.json", &format!("[\"0.0.0\",{kept}]"));
+    shell.write("procrustes-quick.parts/figure-5.json", format!("[\"{}\",{kept}]", env!("CARGO_PKG_VERSION")));
+    shell.write("procrustes-quick.parts/figure-1.json", format!("[\"0.0.0\",{kept}]"));
     shell.write("procrustes-quick.parts/table-1.json", "broken");
     shell.ok("reproduce procrustes --quick");
     let page = shell.read("procrustes-quick.html");

@@ -1,11 +1,13 @@
 //! The papers' tables and figures, computed anew.
 
+mod filtering;
 mod html;
 mod lab;
 mod opt_beta;
 mod part;
 mod procrustes;
 mod push_pull;
+mod recipes;
 mod study;
 
 pub use html::html;

@@ -11,6 +11,7 @@ mod waves;
 use evenly::Image;
 
 use crate::Error;
+use crate::pixels::{bytes, colour, encode};
 pub use chart::Axis;
 use page::Page;
 pub use page::Subject;
@@ -20,11 +21,9 @@ use svg::drawing;
 
 /// A picture of pixels as SVG, a pixel to a unit, for pages that hold several.
 pub fn picture(image: &Image) -> String {
-    let pixels = crate::image::bytes(image);
     let size = [image.width() as f64, image.height() as f64];
-    let Ok(png) = crate::image::encode(&pixels, image.width() as u32, image.height() as u32, crate::image::colour(image), "") else {
-        return String::new();
-    };
+    let png = encode(&bytes(image), image.width() as u32, image.height() as u32, colour(image), "");
+    let Ok(png) = png else { return String::new() };
     drawing(size, "", &svg::embedded(&png, size))
 }
 

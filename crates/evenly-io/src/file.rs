@@ -4,10 +4,7 @@ use std::ffi::OsStr;
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use evenly::PointSet;
-
-use crate::figure::{Draw, Subject, figure};
-use crate::{Error, Format, npy, render, text};
+use crate::{Error, Format, npy, text};
 
 /// Reads points from a file, or from stdin for `-`. Numpy arrays are known by their first bytes, all else is text.
 ///
@@ -171,42 +168,6 @@ impl Target {
 /// What the operating system says.
 pub fn make_folder(path: &Path) -> Result<(), Error> {
     std::fs::create_dir_all(path).map_err(Error::io(&path.display().to_string()))
-}
-
-/// Writes points, or a figure of them, as the target's format has it. The recipe goes along where the format has room for a comment.
-///
-/// # Errors
-/// As [`Target::write`] and [`figure`].
-pub fn write_points(points: &PointSet, draw: &[Draw], recipe: &str, target: &Target) -> Result<(), Error> {
-    let positions = points.positions();
-    let bytes = match target.format {
-        Format::Txt => text::write_txt(positions, recipe).into_bytes(),
-        Format::Csv => text::write_csv(positions).into_bytes(),
-        Format::Npy => npy::write(positions).map_err(Error::io(&target.name()))?,
-        Format::Svg | Format::Png | Format::Pdf => return write_figure(&points.into(), draw, recipe, target),
-    };
-    target.write(&bytes)
-}
-
-/// Writes a figure. The recipe goes along as a comment.
-///
-/// # Errors
-/// As [`Target::write`] and [`figure`]; [`Error::Format`] for a target that holds points.
-pub fn write_figure(subject: &Subject, draw: &[Draw], recipe: &str, target: &Target) -> Result<(), Error> {
-    let svg = figure(subject, draw, recipe)?;
-    let rendered = match target.format {
-        Format::Png => render::png(&svg, recipe),
-        Format::Pdf => render::pdf(&svg, recipe),
-        Format::Svg => Ok(svg.into_bytes()),
-        Format::Txt | Format::Csv | Format::Npy => {
-            return Err(Error::Format {
-                name: target.name(),
-                problem: "this is a format of points",
-                choices: Format::endings(|format| !format.holds_points()),
-            });
-        }
-    };
-    target.write(&rendered.map_err(|e| Error::content(target.name(), e))?)
 }
 
 /// Writes to a stream; if whoever reads has seen enough, that is no error.

@@ -8,13 +8,16 @@ mod file;
 mod format;
 mod image;
 mod npy;
+mod output;
+mod pixels;
 mod render;
 mod scraps;
 mod text;
 
 pub use error::Error;
 pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture};
-pub use file::{Target, make_folder, read_positions, write_figure, write_points};
+pub use file::{Target, make_folder, read_positions};
 pub use format::Format;
 pub use image::{read_image, write_image};
+pub use output::{write_figure, write_points};
 pub use scraps::Scraps;

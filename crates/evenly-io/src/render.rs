@@ -11,7 +11,7 @@ use resvg::usvg::fontdb::{Database, Source};
 use resvg::usvg::{Options, Tree};
 
 use crate::figure::FONT;
-use crate::image::encode;
+use crate::pixels::encode;
 
 /// The only font there is, so that a figure looks the same everywhere.
 const FONT_FILE: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");

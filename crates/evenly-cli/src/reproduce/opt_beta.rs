@@ -1,14 +1,15 @@
 //! Ebeida et al., "Improving Spatial Coverage while Preserving the Blue Noise of Point Sets".
 
 use evenly::{
-    BilateralParams, CvtParams, DistMeshParams, FarthestPointParams, Image, LloydParams, OptBetaParams, PointSet, ReconstructionFilter,
-    Rectangle, RunContext, Tessellation, Torus, WellSpacedParams, ZonePlateParams, bilateral, lloyd, measure, opt_beta,
-    subsampled_bilateral, tessellate, zone_plate,
+    LloydParams, OptBetaParams, PointSet, ReconstructionFilter, Rectangle, RunContext, Tessellation, Torus, ZonePlateParams, lloyd,
+    measure, opt_beta, tessellate, zone_plate,
 };
 use evenly_io::{Axis, Curve, Draw, Subject, figure, picture};
 
+use super::filtering;
 use super::lab::{Lab, Profile, Recipe};
 use super::part::Part;
+use super::recipes::{by_opt_beta, by_well_spaced, cvt, distmesh, farthest_local};
 use super::study::Study;
 use crate::method::Method;
 
@@ -26,34 +27,10 @@ pub const STUDY: Study = Study {
         ("Figure 9", figure_9),
         ("Figure 11", figure_11),
         ("Table 1", table_1),
-        ("Table 2", table_2),
+        ("Table 2", filtering::table_2),
     ],
 };
 
-/// As in the paper: from a maximal Poisson-disk set.
-fn by_opt_beta(name: &'static str, beta: f64) -> Recipe {
-    Recipe::plain(name, Method::PoissonDisk, OptBetaParams { beta, ..OptBetaParams::default() })
-}
-
-fn by_well_spaced(name: &'static str, beta: f64) -> Recipe {
-    Recipe::plain(name, Method::PoissonDisk, WellSpacedParams { beta, ..WellSpacedParams::default() })
-}
-
-fn cvt() -> Recipe {
-    Recipe::plain("CVT", Method::PoissonDisk, CvtParams::default())
-}
-
-fn distmesh() -> Recipe {
-    Recipe::plain("DistMesh", Method::PoissonDisk, DistMeshParams::default())
-}
-
-/// As Ebeida et al. have it: each point to the largest gap beside it.
-fn farthest() -> Recipe {
-    let params = FarthestPointParams { min_distance: None, is_local: true, iterations: 200, ..FarthestPointParams::default() };
-    Recipe::plain("Far-Point", Method::PoissonDisk, params)
-}
-
-/// By how many sets go on to lower ratios than Opt-beta's own steps reach.
 const BELOW: &str = "Opt-beta's own steps go down to about 0.79 with 10,000 points, and to 0.75 with 1000 in some runs; the rows of well-spaced points, evenly's way to low ratios, go on where they end.";
 
 fn figure_2(lab: &Lab) -> anyhow::Result<Part> {
@@ -134,7 +111,7 @@ fn figure_5(lab: &Lab) -> anyhow::Result<Part> {
         Recipe::maximal("MPS", 1.0),
         cvt(),
         distmesh(),
-        farthest(),
+        farthest_local(),
         by_opt_beta("Opt-beta 0.80", 0.80),
         by_well_spaced("well-spaced 0.70", 0.70),
     ];
@@ -204,7 +181,13 @@ fn shown(lab: &Lab) -> Vec<Recipe> {
     if !lab.is_quick {
         recipes.push(by_opt_beta("Opt-beta 0.80", 0.80));
     }
-    recipes.extend([by_well_spaced("well-spaced 0.75", 0.75), by_well_spaced("well-spaced 0.70", 0.70), cvt(), distmesh(), farthest()]);
+    recipes.extend([
+        by_well_spaced("well-spaced 0.75", 0.75),
+        by_well_spaced("well-spaced 0.70", 0.70),
+        cvt(),
+        distmesh(),
+        farthest_local(),
+    ]);
     recipes
 }
 
@@ -343,7 +326,7 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
             Recipe::maximal("MPS", 1.0),
             cvt(),
             distmesh(),
-            farthest(),
+            farthest_local(),
             Recipe::plain("Opt-beta", Method::PoissonDisk, OptBetaParams { beta: 0.75, ..OptBetaParams::default() }),
             by_well_spaced("well-spaced", 0.75),
         ];
@@ -358,66 +341,5 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
         }
     }
     part.remark("Points are not kept on the border here, and the square has no reflex corner: the paper's domain is harder. The same order shows: Opt-beta alone lowers beta and keeps both other measures.");
-    Ok(part)
-}
-
-/// Waves of all lengths and directions, the longer the stronger as in photographs, and edges; or fine ripples that grow finer downwards.
-fn image(side: usize, has_ripples: bool) -> anyhow::Result<Image> {
-    let value = |index: usize| {
-        let (x, y) = ((index % side) as f64, (index / side) as f64);
-        if has_ripples {
-            let ripple = (0.6 * x + 4.0 * (y / 23.0).sin() + y * y / 400.0).sin() * 0.2 * (y / side as f64);
-            return 0.5 + ripple + 0.2 * (x / 61.0).sin() * (y / 47.0).cos();
-        }
-        let waves = (0..40).map(|k| {
-            let (length, angle) = (100.0 * 0.93f64.powi(k), 2.4 * f64::from(k));
-            0.0006 * length * ((x * angle.cos() + y * angle.sin()) * std::f64::consts::TAU / length + 1.7 * f64::from(k)).sin()
-        });
-        0.4 + 0.3 * f64::from(u8::from((x / 37.0).sin() + (y / 29.0).cos() > 0.3)) + waves.sum::<f64>()
-    };
-    Ok(Image::new(side, side, 1, (0..side * side).map(value).collect())?)
-}
-
-fn table_2(lab: &Lab) -> anyhow::Result<Part> {
-    let mut part = Part::new(
-        "The error of bilateral filtering by samples against the full filter, kernel 40 pixels wide, 30 samples in a kernel. The paper's two photographs are not to be had; ours are computed: edges and waves of all lengths, and fine ripples. Means over sets.",
-    );
-    let recipes: [(Recipe, usize); 8] = [
-        (Recipe::start("white noise", Method::White), 0),
-        (Recipe::maximal("beta = 2", 2.0), 1),
-        (Recipe::maximal("beta = 1", 1.0), 2),
-        (by_opt_beta("Opt-beta, 0.85", 0.85), 3),
-        (by_well_spaced("well-spaced, 0.75", 0.75), 4),
-        (by_well_spaced("well-spaced, 0.70", 0.70), 9),
-        (cvt(), 9),
-        (Recipe::start("triangle tiling", Method::Hexagonal), 5),
-    ];
-    let printed: [[[f64; 2]; 6]; 2] = [
-        [[0.013, 0.020], [0.010, 0.014], [0.0093, 0.013], [0.0089, 0.013], [0.0087, 0.012], [0.012, 0.017]],
-        [[0.020, 0.029], [0.013, 0.020], [0.012, 0.019], [0.011, 0.017], [0.010, 0.017], [0.016, 0.020]],
-    ];
-    let (side, n_sets) = (lab.pick(192, 384), lab.pick(2, 6));
-    let params = BilateralParams::default();
-    for (name, has_ripples, printed) in
-        [("edges and waves (paper: cattle skull)", false, printed[0]), ("ripples (paper: reflection)", true, printed[1])]
-    {
-        let image = image(side, has_ripples)?;
-        let full = bilateral(&image, &params)?;
-        part.figure(name, picture(&image));
-        let mut rows = Vec::new();
-        for (recipe, column) in &recipes {
-            let mut sums = [0.0; 2];
-            for samples in lab.sets(recipe, 2000, n_sets)? {
-                let difference = subsampled_bilateral(&image, &samples, &params)?.difference(&full)?;
-                sums = [sums[0] + difference.mean_error / n_sets as f64, sums[1] + difference.rmse / n_sets as f64];
-            }
-            rows.push((format!("{}: {name}", recipe.name), sums, printed.get(*column)));
-        }
-        let table = part.table(&["mean error", "RMSE"]);
-        for (name, ours, printed) in rows {
-            table.row(name, &ours, printed.map_or(&[], |numbers| numbers));
-        }
-    }
-    part.remark("Where a kernel's samples come from is not said in the paper: here the set is laid over the picture. The order is the paper's, down to the smallest beta; how bad the tiling is depends on whether the picture has waves in step with it.");
     Ok(part)
 }

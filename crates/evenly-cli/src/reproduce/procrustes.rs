@@ -1,10 +1,11 @@
 //! Papazov and Hege, "Blue-noise Optimized Point Sets Based on Procrustes Analysis".
 
-use evenly::{CapacityParams, CvtParams, FarthestPointParams, LloydParams, Mode, ProcrustesParams, measure};
+use evenly::{CapacityParams, CvtParams, LloydParams, Mode, ProcrustesParams, measure};
 use evenly_io::{Axis, Curve, Draw};
 
 use super::lab::{Lab, Profile, Recipe};
 use super::part::Part;
+use super::recipes::farthest;
 use super::study::Study;
 use crate::method::Method;
 
@@ -24,10 +25,6 @@ fn paper() -> Recipe {
 
 fn fast() -> Recipe {
     Recipe::usual("Procrustes, fast mode", ProcrustesParams::default())
-}
-
-fn farthest() -> Recipe {
-    Recipe::plain("FPO", Method::White, FarthestPointParams { min_distance: Some(0.925), ..FarthestPointParams::default() })
 }
 
 /// Equal areas, which is what CCVT asks for, without its centroids.

@@ -1,10 +1,11 @@
 //! Ahmed, Guo, Yan et al., "A Simple Push-Pull Algorithm for Blue-Noise Sampling".
 
-use evenly::{CvtParams, FarthestPointParams, LloydParams, ProcrustesParams, PushPullParams, PushPullPreset, ZonePlateParams, zone_plate};
+use evenly::{CvtParams, LloydParams, ProcrustesParams, PushPullParams, PushPullPreset, ZonePlateParams, zone_plate};
 use evenly_io::{Axis, Curve, Draw, picture};
 
 use super::lab::{Lab, Profile, Recipe};
 use super::part::Part;
+use super::recipes::{farthest, farthest_of_paper};
 use super::study::Study;
 use crate::method::Method;
 
@@ -23,16 +24,6 @@ fn targets(min_distance: f64, coverage_radius: f64) -> PushPullParams {
     PushPullParams { min_distance: Some(min_distance), coverage_radius: Some(coverage_radius), ..PushPullParams::default() }
 }
 
-fn farthest() -> Recipe {
-    Recipe::plain("FPO", Method::White, FarthestPointParams { min_distance: Some(0.925), ..FarthestPointParams::default() })
-}
-
-/// The steps of Schloemer et al., not exaggerated.
-fn paper_farthest() -> Recipe {
-    let params = FarthestPointParams { min_distance: Some(0.925), relaxation: 1.0, iterations: 5000, ..FarthestPointParams::default() };
-    Recipe::plain("FPO", Method::White, params)
-}
-
 fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
         "Spacing, coverage, spectrum and order of blue-noise sets: smallest and mean distance to the nearest point, coverage radius, their ratio, effective Nyquist frequency, oscillation, bond-orientational order \
@@ -42,7 +33,7 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
         (Recipe::start("Random", Method::White), &[0.023, 0.465, 1.635, 71.42, 0.0, 0.074, 0.363]),
         (Recipe::maximal("MPS", 1.0), &[0.780, 0.821, 0.781, 1.0, 0.655, 2.168, 0.388]),
         (Recipe::plain("CVT", Method::White, CvtParams::default()), &[0.805, 0.941, 0.657, 0.817, 0.950, 4.733, 0.842]),
-        (paper_farthest(), &[0.925, 0.933, 0.869, 0.939, 0.900, 4.628, 0.428]),
+        (farthest_of_paper(), &[0.925, 0.933, 0.869, 0.939, 0.900, 4.628, 0.428]),
         (Recipe::plain("Push-pull-1", Method::White, targets(0.80, 0.63)), &[0.800, 0.847, 0.630, 0.787, 0.860, 1.894, 0.487]),
         (Recipe::plain("Push-pull-2", Method::White, targets(0.90, 0.65)), &[0.900, 0.905, 0.650, 0.722, 0.895, 3.180, 0.499]),
         (

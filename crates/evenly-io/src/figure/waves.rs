@@ -3,7 +3,7 @@
 use evenly::PowerSpectrum;
 
 use super::svg::{embedded, inset};
-use crate::image::encode;
+use crate::pixels::encode;
 
 /// The powers that are black and white.
 const POWERS: [f64; 2] = [1e-2, 1e1];
