@@ -10,7 +10,8 @@ h1 { font-size: 1.4rem } code { font-size: .9em }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(14rem, 1fr)); gap: 1rem }
 figure { margin: 0 } figure svg { width: 100%; height: auto; border: 1px solid #ccc; background: #fff }
 figcaption { text-align: center } ul { padding-left: 1.2rem } i { color: #666 }
-.figures { display: flex; flex-wrap: wrap; gap: 1rem } .figures figure { flex: 1 1 22rem; max-width: 60rem }
+.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(22rem, 1fr)); gap: 1rem }
+@media (min-width: 50rem) { .figures .panels { grid-column: span 2 } }
 .wide { overflow-x: auto; margin: 1rem 0 } section { border-top: 1px solid #ccc; margin-top: 2rem } table { border-collapse: collapse; font-variant-numeric: tabular-nums }
 th, td { padding: .2rem .7rem; text-align: right; white-space: nowrap; border-bottom: 1px solid #ddd }
 th:first-child { text-align: left; position: sticky; left: 0; background: #fff } tr:hover td { background: #f2f6fa }";

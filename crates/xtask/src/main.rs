@@ -7,7 +7,7 @@ usage: cargo xtask CHORE
   test           all tests: units, laws, numbers, the command line, the examples in the documentation
   bench [quick] [procrustes | push-pull | starts | comparators | spectrum]
                  the table of speed and quality, measured on this machine
-  gallery        draws the pictures of the README anew";
+  gallery        draws the pictures of the README, and the pages of docs/, anew: some ten minutes";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -24,12 +24,16 @@ fn main() -> ExitCode {
     if is_done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// The pictures that the README shows.
+/// The pictures that the README shows, and the papers reproduced.
 fn gallery() -> bool {
-    let pictures: [&[&str]; 3] = [
+    let pictures: [&[&str]; 7] = [
         &["generate", "-n", "10000", "-o", "gallery/points.png"],
         &["generate", "-n", "10000", "--draw", "valence", "-o", "gallery/valence.png"],
         &["generate", "-n", "600", "--space", "rect", "--size", "3,2", "--draw", "delaunay,points", "-o", "gallery/rectangle.png"],
+        &["generate", "-n", "4096", "--method", "push-pull", "--draw", "report", "-o", "gallery/report.svg"],
+        &["reproduce", "procrustes", "-o", "docs"],
+        &["reproduce", "push-pull", "-o", "docs"],
+        &["reproduce", "opt-beta", "-o", "docs"],
     ];
     let evenly = ["run", "--release", "--package", "evenly-cli", "--"];
     let is_drawn = pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));

@@ -13,7 +13,7 @@ fn image(side: usize, has_ripples: bool) -> anyhow::Result<Image> {
     let value = |index: usize| {
         let (x, y) = ((index % side) as f64, (index / side) as f64);
         if has_ripples {
-            let ripple = (0.6 * x + 4.0 * (y / 23.0).sin() + y * y / 400.0).sin() * 0.2 * (y / side as f64);
+            let ripple = (0.2 * x + 3.0 * (y / 23.0).sin() + y * y / 2000.0).sin() * 0.2 * (y / side as f64);
             return 0.5 + ripple + 0.2 * (x / 61.0).sin() * (y / 47.0).cos();
         }
         let waves = (0..40).map(|k| {
@@ -66,6 +66,7 @@ pub fn table_2(lab: &Lab) -> anyhow::Result<Part> {
             table.row(name, &ours, printed.map_or(&[], |numbers| numbers));
         }
     }
-    part.remark("Where a kernel's samples come from is not said in the paper: here the set is laid over the picture. The order is the paper's, down to the smallest beta; how bad the tiling is depends on whether the picture has waves in step with it.");
+    part.remark("Where a kernel's samples come from is not said in the paper: here the set is laid over the picture. From white noise over maximal sets to Opt-beta the order is the paper's; farther down all are alike.");
+    part.remark("The tiling is no worse here, unlike in the paper: these pictures have no texture in step with it. Of four photographs that were tried, its RMSE was worse than that of white noise on one, and about that of well-spaced points on three.");
     Ok(part)
 }

@@ -36,7 +36,8 @@ fn section(body: &mut String, name: &str, part: &Part) {
     body.push_str("<div class=\"figures\">\n");
     for figure in &part.figures {
         let svg = figure.svg.find("<svg").map_or("", |start| &figure.svg[start..]);
-        let _ = writeln!(body, "<figure>{svg}<figcaption>{}</figcaption></figure>", escaped(&figure.caption));
+        let class = if is_row_of_panels(svg) { " class=\"panels\"" } else { "" };
+        let _ = writeln!(body, "<figure{class}>{svg}<figcaption>{}</figcaption></figure>", escaped(&figure.caption));
     }
     body.push_str("</div>\n");
     if !part.remarks.is_empty() {
@@ -47,6 +48,12 @@ fn section(body: &mut String, name: &str, part: &Part) {
         body.push_str("</ul>\n");
     }
     let _ = writeln!(body, "<p><small>{:.1} s</small></p></section>", part.seconds);
+}
+
+/// Whether a drawing is several times as wide as high.
+fn is_row_of_panels(svg: &str) -> bool {
+    let length = |name: &str| -> Option<f64> { svg.split_once(name)?.1.split('"').next()?.parse().ok() };
+    length(" width=\"").zip(length(" height=\"")).is_some_and(|(width, height)| width > 2.5 * height)
 }
 
 fn write_table(body: &mut String, table: &Table) {

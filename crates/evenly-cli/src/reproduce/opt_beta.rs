@@ -31,7 +31,10 @@ pub const STUDY: Study = Study {
     ],
 };
 
-const BELOW: &str = "Opt-beta's own steps go down to about 0.79 with 10,000 points, and to 0.75 with 1000 in some runs; the rows of well-spaced points, evenly's way to low ratios, go on where they end.";
+/// Of the sets that are shown. Opt-beta's steps get stuck at a single spot of some.
+const SEED: u64 = 1;
+
+const BELOW: &str = "Opt-beta's own steps go down to about 0.79 with 10,000 points, though one set of five got stuck at 0.86 at a single spot; the rows of well-spaced points, evenly's way to low ratios, go on where they end.";
 
 fn figure_2(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new("The ratio beta of coverage radius to smallest distance, by type of distribution.");
@@ -56,7 +59,7 @@ fn figure_2(lab: &Lab) -> anyhow::Result<Part> {
         (Recipe::start("dart throwing, not maximal", Method::Dart), f64::NAN),
         (Recipe::start("PS without conflict disks", Method::White), f64::NAN),
     ] {
-        let points = lab.run(&recipe, n, 0)?.points;
+        let points = lab.run(&recipe, n, SEED)?.points;
         table.row(recipe.name, &[measure(&points)?.beta], &[printed]);
     }
     part.remark("Delaunay refinement is not among evenly's methods. Without conflict disks the ratio has no bound: two points may be as near as they like.");
@@ -127,7 +130,7 @@ fn figure_5(lab: &Lab) -> anyhow::Result<Part> {
         let mut curves: [Vec<Curve>; 3] = Default::default();
         let mut rows = Vec::new();
         for recipe in &recipes {
-            let points = lab.run(recipe, n, 0)?.points;
+            let points = lab.run(recipe, n, SEED)?.points;
             let m = measure(&points)?;
             let values = triangles(&tessellate(&points)?, m.min_distance * m.hex_spacing);
             for (index, (range, n_bins)) in [([20.0, 130.0], 55), ([1.0, 2.0], 40), ([0.55, 1.0], 45)].into_iter().enumerate() {
@@ -159,7 +162,7 @@ fn figure_6(lab: &Lab) -> anyhow::Result<Part> {
     let mut rows = Vec::new();
     for &(name, n) in sizes {
         let params = OptBetaParams { beta: 0.578, iterations: n_sweeps, ..OptBetaParams::default() };
-        let run = lab.run(&Recipe::plain("Opt-beta", Method::PoissonDisk, params), n, 1)?;
+        let run = lab.run(&Recipe::plain("Opt-beta", Method::PoissonDisk, params), n, SEED)?;
         let betas = run.report.map_or_else(Vec::new, |report| report.energy);
         let first = |target: f64| betas.iter().position(|&beta| beta <= target).map_or(f64::NAN, |sweep| sweep as f64);
         let least = betas.iter().copied().fold(f64::INFINITY, f64::min);
@@ -199,7 +202,7 @@ fn figure_7(lab: &Lab) -> anyhow::Result<Part> {
     let mut rows = Vec::new();
     for recipe in shown(lab) {
         let params = ZonePlateParams { pixels: 350, filter: ReconstructionFilter::Gaussian, ..ZonePlateParams::default() };
-        let plate = zone_plate(&lab.run(&recipe, n, 0)?.points, &params)?;
+        let plate = zone_plate(&lab.run(&recipe, n, SEED)?.points, &params)?;
         part.figure(recipe.name, picture(&plate.image));
         rows.push((recipe.name, [plate.noise, plate.aliasing, plate.error]));
     }
@@ -207,7 +210,7 @@ fn figure_7(lab: &Lab) -> anyhow::Result<Part> {
     for (name, numbers) in rows {
         table.row(name, &numbers, &[]);
     }
-    part.remark("As the paper says: the smaller beta, the less noise, and the more aliasing; but not across methods: CVT has a larger beta than the well-spaced sets, and more aliasing.");
+    part.remark("As the paper says, of one method the smaller beta, the less noise and the more aliasing; not across methods: CVT has a larger beta than the well-spaced sets, and more aliasing, and well-spaced sets of 0.75 keep more randomness than Opt-beta's of 0.85.");
     part.remark(BELOW);
     Ok(part)
 }
@@ -219,7 +222,7 @@ fn figure_8(lab: &Lab) -> anyhow::Result<Part> {
     let n = lab.pick(1000, 10_000);
     let mut rows = Vec::new();
     for recipe in shown(lab) {
-        let points = lab.run(&recipe, n, 0)?.points;
+        let points = lab.run(&recipe, n, SEED)?.points;
         let m = measure(&points)?;
         let n_cells = m.valence.values().sum::<usize>() as f64;
         let share = |least: usize, most: usize| 100.0 * m.valence.range(least..=most).map(|(_, n)| *n).sum::<usize>() as f64 / n_cells;
@@ -241,7 +244,7 @@ fn figure_9(lab: &Lab) -> anyhow::Result<Part> {
     let n = lab.pick(2500, 10_000);
     let mut rows = Vec::new();
     for recipe in shown(lab) {
-        let sets = [lab.run(&recipe, n, 0)?.points];
+        let sets = [lab.run(&recipe, n, SEED)?.points];
         let profile = Profile::of(&sets)?;
         part.figure(recipe.name, profile.figure(&sets, &[Draw::PowerSpectrum, Draw::RadialPower, Draw::Anisotropy], n)?);
         let m = &profile.measures[0];
@@ -263,7 +266,7 @@ fn figure_11(lab: &Lab) -> anyhow::Result<Part> {
     let n = lab.pick(1000, 4000);
     let steps: &[usize] = &[0, 1, 2, 3, 5, 8, 12, 20, 30, 50, 80, 120];
     let steps = &steps[..lab.pick(10, 12)];
-    let begin = lab.run(&Recipe::maximal("MPS", 1.0), n, 1)?.points;
+    let begin = lab.run(&Recipe::maximal("MPS", 1.0), n, SEED)?.points;
     let of_start = measure(&begin)?;
     let most = steps.last().copied().unwrap_or(1) as f64;
     let mut rows = Vec::new();
@@ -319,7 +322,7 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     let square = Rectangle::new([0.0, 0.0], [1.0, 1.0])?;
     for (radius, printed) in [0.0314f64, 0.0157].into_iter().zip(printed) {
         let n = (0.75 / radius.powi(2)) as usize;
-        let maximal = lab.run_on(square.into(), &Recipe::maximal("MPS", 1.0), n, 0)?.points;
+        let maximal = lab.run_on(square.into(), &Recipe::maximal("MPS", 1.0), n, SEED)?.points;
         let of_start = measure(&maximal)?;
         let start = of_start.min_distance * of_start.hex_spacing;
         let recipes = [
@@ -333,13 +336,13 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
         let table = part.table(&["beta", "r_c / r_MPS", "r_f / r_MPS", "min angle", "max angle"]);
         for recipe in recipes {
             // All have as many points as the maximal set.
-            let m = measure(&lab.run_on(square.into(), &recipe, maximal.n_points(), 0)?.points)?;
+            let m = measure(&lab.run_on(square.into(), &recipe, maximal.n_points(), SEED)?.points)?;
             let by_start = |length: f64| length * m.hex_spacing / start;
             let ours = [m.beta, by_start(m.coverage_radius), by_start(m.min_distance), m.min_angle_deg, m.max_angle_deg];
             let paper = printed.iter().find(|(name, _)| *name == recipe.name).map_or(&[][..], |(_, numbers)| numbers);
             table.row(format!("{}, r_MPS = {radius}", recipe.name), &ours, paper);
         }
     }
-    part.remark("Points are not kept on the border here, and the square has no reflex corner: the paper's domain is harder. The same order shows: Opt-beta alone lowers beta and keeps both other measures.");
+    part.remark("Points are not kept on the border here, and the square has no reflex corner: the paper's domain is harder. As there, Opt-beta ends lowest of the paper's methods.");
     Ok(part)
 }

@@ -12,7 +12,7 @@ pub fn farthest() -> Recipe {
 /// The steps of Schloemer et al., not exaggerated.
 pub fn farthest_of_paper() -> Recipe {
     let params = FarthestPointParams { min_distance: Some(0.925), relaxation: 1.0, iterations: 5000, ..FarthestPointParams::default() };
-    Recipe::plain("FPO", Method::White, params)
+    Recipe::plain("FPO, own steps", Method::White, params)
 }
 
 /// As in the paper: from a maximal Poisson-disk set.
