@@ -508,7 +508,7 @@ fn a_zone_plate_tells_noise_from_aliasing() {
     assert!(fs::read(shell.path("cvt.png")).unwrap().starts_with(b"\x89PNG"));
     assert!(shell.ok("zoneplate cvt.txt --filter gaussian --frequency 1").contains("aliasing"));
     for (flags, reason) in [
-        ("--pixels 3", "from 16 to 8192"),
+        ("--pixels 3", "from 16 to 4096"),
         ("--frequency 0", "above 0"),
         ("--space rect", "sample 32 x 32 pixels"),
         ("-o plate.svg", "plate.svg: a picture has pixels; use one of .png"),

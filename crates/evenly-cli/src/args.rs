@@ -168,7 +168,7 @@ pub struct Zoneplate {
     pub input: PathBuf,
     #[command(flatten)]
     pub space: SpaceArgs,
-    /// Pixels a side, 16 to 8192
+    /// Pixels a side, 16 to 4096
     #[arg(long, value_name = "N", default_value_t = 512)]
     pub pixels: usize,
     /// The wave's frequency at the right side, in waves a pixel: above 0, at most 8

@@ -18,7 +18,7 @@ use crate::points::PointSet;
 /// How [`zone_plate`] samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ZonePlateParams {
-    /// Pixels a side, 16 to 8192. A torus' set is repeated until it fills them; a rectangle's must be large enough.
+    /// Pixels a side, 16 to 4096. A torus' set is repeated until it fills them; a rectangle's must be large enough.
     pub pixels: usize,
     /// The wave's frequency at the right and the upper side, in waves a pixel, above 0 and at most 8. From a half on no regular grid of samples can tell it.
     pub max_frequency: f64,
@@ -70,8 +70,8 @@ pub struct ZonePlate {
 pub fn zone_plate(points: &PointSet, params: &ZonePlateParams) -> Result<ZonePlate, Error> {
     let wrong = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
     let ZonePlateParams { pixels, max_frequency, filter } = *params;
-    if !(16..=8192).contains(&pixels) {
-        return wrong("pixels", pixels.to_string(), "from 16 to 8192");
+    if !(16..=4096).contains(&pixels) {
+        return wrong("pixels", pixels.to_string(), "from 16 to 4096");
     }
     if !(max_frequency > 0.0 && max_frequency <= 8.0) {
         return wrong("max_frequency", max_frequency.to_string(), "above 0 and at most 8");

@@ -33,14 +33,14 @@ pub struct PowerSpectrum {
     /// Each ring's anisotropy (Ulichney 1987), the variance of the power by the square of its mean, in decibels; what depends on no direction has
     /// -10 log10 of the number of sets. NaN where there is no power.
     pub anisotropy_db: Vec<f64>,
-    /// What is known of each frequency: the largest a and b, and the power row by row for a from 0, b from -b_max.
-    #[serde(skip)]
-    half: [usize; 2],
-    #[serde(skip)]
-    power: Vec<f64>,
-    /// The lattice's steps, in inverse mean spacings.
+    /// The lattice's steps, in inverse mean spacings, and the largest [a, b].
     #[serde(skip)]
     step: [f64; 2],
+    #[serde(skip)]
+    half: [usize; 2],
+    /// Row by row for a from 0, b from -b_max; a is that of the domain's shorter side, so that rows are long.
+    #[serde(skip)]
+    power: Vec<f64>,
 }
 
 impl PowerSpectrum {
@@ -51,9 +51,10 @@ impl PowerSpectrum {
 
     /// The power at the frequency `(a / width, b / height)`; `None` outside the lattice.
     pub fn power(&self, a: i64, b: i64) -> Option<f64> {
+        let [a, b] = by_short_side(self.half, [a, b]);
         // The spectrum of what is real is the same from both sides.
         let (a, b) = if a < 0 { (-a, -b) } else { (a, b) };
-        let [a_max, b_max] = self.half.map(|half| half as i64);
+        let [a_max, b_max] = by_short_side(self.half, self.half).map(|half| half as i64);
         let is_known = a <= a_max && b.abs() <= b_max;
         is_known.then(|| self.power[(a * (2 * b_max + 1) + b + b_max) as usize])
     }
@@ -62,6 +63,11 @@ impl PowerSpectrum {
     pub fn step(&self) -> [f64; 2] {
         self.step
     }
+}
+
+/// A pair with what belongs to the domain's shorter side first, which has the fewer frequencies.
+fn by_short_side<T>(half: [usize; 2], [x, y]: [T; 2]) -> [T; 2] {
+    if half[0] <= half[1] { [x, y] } else { [y, x] }
 }
 
 /// Up to here waves are summed point by point.
@@ -98,7 +104,8 @@ pub fn power_spectrum(sets: &[PointSet], max_frequency: f64) -> Result<PowerSpec
     let most = (0.5 * MOST_FREQUENCIES * step[0] * step[1]).sqrt();
     let max_frequency = max_frequency.min(most);
     let half = step.map(|step| (max_frequency / step) as usize);
-    let mut power = vec![0.0; (half[0] + 1) * (2 * half[1] + 1)];
+    let [n_rows, n_columns] = by_short_side(half, half);
+    let mut power = vec![0.0; (n_rows + 1) * (2 * n_columns + 1)];
     for points in sets {
         let waves = Waves::new(points, half);
         let share = 1.0 / (waves.white_power() * sets.len() as f64);
@@ -108,11 +115,12 @@ pub fn power_spectrum(sets: &[PointSet], max_frequency: f64) -> Result<PowerSpec
             gridding::add_power(&waves, share, &mut power);
         }
     }
-    let Rings { frequencies, power: ring_power, anisotropy_db } = rings::of(&power, half, step, max_frequency);
-    Ok(PowerSpectrum { n_sets: sets.len(), max_frequency, ring_frequencies: frequencies, ring_power, anisotropy_db, half, power, step })
+    let Rings { frequencies, power: ring_power, anisotropy_db } =
+        rings::of(&power, by_short_side(half, half), by_short_side(half, step), max_frequency);
+    Ok(PowerSpectrum { n_sets: sets.len(), max_frequency, ring_frequencies: frequencies, ring_power, anisotropy_db, step, half, power })
 }
 
-/// One set, ready to be summed to waves.
+/// One set, ready to be summed to waves; x is along the domain's shorter side.
 struct Waves {
     /// Places in the domain as shares of its sides, in [0, 1].
     x: Vec<f64>,
@@ -124,14 +132,15 @@ struct Waves {
 }
 
 impl Waves {
+    /// `half` is that of the domain's sides.
     fn new(points: &PointSet, half: [usize; 2]) -> Self {
         let (domain, positions) = points.normalized();
         let has_window = !domain.is_periodic;
         let share = |axis: usize| positions.iter().map(|p| p[axis] / domain.size[axis]).collect();
-        let [x, y]: [Vec<f64>; 2] = [share(0), share(1)];
+        let [x, y]: [Vec<f64>; 2] = by_short_side(half, [share(0), share(1)]);
         let window = |t: f64| (std::f64::consts::PI * t).sin().powi(2);
         let weight = x.iter().zip(&y).map(|(&x, &y)| if has_window { window(x) * window(y) } else { 1.0 }).collect();
-        Self { x, y, weight, half, has_window }
+        Self { x, y, weight, half: by_short_side(half, half), has_window }
     }
 
     /// What white noise has, on average: n times the mean square of the window.

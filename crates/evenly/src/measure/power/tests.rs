@@ -36,6 +36,7 @@ fn both_ways_agree_with_the_definition() {
         (white(torus(), 500, 1).unwrap(), [40, 40]),
         (white(Rectangle::new([1.0, 2.0], [3.0, 2.0]).unwrap(), 300, 2).unwrap(), [90, 30]),
         (white(Torus::new([0.0, 0.0], [100.0, 1.0]).unwrap(), 400, 3).unwrap(), [200, 2]),
+        (white(Torus::new([0.0, 0.0], [1.0, 3000.0]).unwrap(), 100, 3).unwrap(), [0, 2500]),
         (PointSet::new(torus(), vec![[0.0, 0.0], [0.5, 0.999], [0.99999, 0.0]]).unwrap(), [7, 5]),
     ];
     for (points, half) in cases {
@@ -132,8 +133,16 @@ fn few_points_are_fine_and_what_has_no_mean_is_an_error() {
     let one = PointSet::new(torus(), vec![[0.3, 0.4]]).unwrap();
     let s = power_spectrum(std::slice::from_ref(&one), 4.0).unwrap();
     assert!(s.ring_power.iter().all(|p| (p - 1.0).abs() < 1e-12));
-    let narrow = Torus::new([0.0, 0.0], [1000.0, 1.0]).unwrap();
-    assert!(power_spectrum(&[white(narrow, 10, 0).unwrap()], 4.0).is_ok());
+    // The same set lying and standing.
+    let long = white(Torus::new([0.0, 0.0], [1000.0, 1.0]).unwrap(), 1000, 0).unwrap();
+    let turned = long.positions().iter().map(|p| [p[1], p[0]]).collect();
+    let turned = PointSet::new(Torus::new([0.0, 0.0], [1.0, 1000.0]).unwrap(), turned).unwrap();
+    let [lying, standing] = [long, turned].map(|points| power_spectrum(&[points], 20.0).unwrap());
+    for (a, b) in [(0, 0), (3, 0), (600, -1), (-7, 1)] {
+        let (p, q) = (lying.power(a, b).unwrap(), standing.power(b, a).unwrap());
+        assert!((p - q).abs() < 1e-9 * p.max(1.0), "{a} {b}: {p} {q}");
+    }
+    assert!(lying.half_size() == [20_000, 20] && lying.power(0, 21).is_none() && standing.power(20, 20_000).is_some());
     let empty = PointSet::new(torus(), vec![]).unwrap();
     let other = white(Torus::new([0.0, 0.0], [2.0, 1.0]).unwrap(), 1, 0).unwrap();
     let more = white(torus(), 2, 0).unwrap();
