@@ -76,8 +76,11 @@ fn a_spectrum_comes_with_the_measures_where_it_is_asked_for() {
     assert!(local["effective_nyquist"].as_f64().unwrap() > 0.8 && local.get("ring_power").is_none());
     shell.ok("generate -n 9 --method white -o few.txt");
     assert!(shell.refused("analyze few.txt --spectrum").contains("too few points"));
-    assert!(shell.refused("analyze a.txt few.txt --spectrum").contains("2000 and of 9 points"));
+    assert!(shell.refused("analyze a.txt few.txt --spectrum").contains("of 9 and of 2000 points"));
     assert!(shell.refused("analyze a.txt b.txt --spectrum --local").contains("one set"));
+    assert!(shell.refused("analyze a.txt --local").contains("--spectrum and --plot"));
+    assert!(shell.refused("analyze a.txt --local --plot a.svg --draw spectrum").contains("means nothing"));
+    assert!(shell.refused("analyze - -").contains("read once"));
 }
 
 #[test]
@@ -163,6 +166,9 @@ fn a_bilateral_filter_needs_few_samples_and_any_picture() {
         ("no.png --samples even.txt", "no.png: No such file"),
         ("even.txt --samples even.txt", "even.txt: not a readable PNG or JPEG"),
         ("small.png --samples even.txt --kernel 0", "kernel_px is 0"),
+        ("small.png --samples even.txt --range 1e-200", "a millionth at least"),
+        ("small.png --samples even.txt -o new.png --full ./new.png", "the same file"),
+        ("- --samples -", "read once"),
         ("small.png --samples even.txt --space rect --count 900", "are too many"),
     ] {
         assert!(shell.refused(&format!("bilateral {flags}")).contains(reason), "{flags}");

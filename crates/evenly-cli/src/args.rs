@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Command as Clap, CommandFactory as _, Parser, Subcommand, ValueEnum};
-use evenly::{Error, MAX_POINTS, ReconstructionFilter, Rectangle, Space, Torus};
-use evenly_io::{Draw, Format};
+use clap::{Args, Command as Clap, CommandFactory as _, Parser, Subcommand};
+use evenly::MAX_POINTS;
+use evenly_io::Format;
 
+use crate::measuring_args::{Analyze, Bilateral, Reproduce, Zoneplate};
 use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
+use crate::shared_args::{DrawArg, SpaceArgs};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -98,30 +100,6 @@ pub struct Optimize {
 }
 
 #[derive(Args)]
-#[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
-pub struct Analyze {
-    /// Points as .txt, .csv or .npy; - is stdin. Of several sets the spectrum is the mean of theirs
-    #[arg(required = true)]
-    pub inputs: Vec<PathBuf>,
-    #[command(flatten)]
-    pub space: SpaceArgs,
-    /// The power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON
-    #[arg(long)]
-    pub spectrum: bool,
-    /// Take each distance in its place's own spacing, for one set whose density varies (differential domain analysis)
-    #[arg(long)]
-    pub local: bool,
-    /// Draw a figure, as .svg, .png or .pdf
-    #[arg(long, value_name = "FILE")]
-    pub plot: Option<PathBuf>,
-    /// What the figure shows
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "PARTS", default_value = "report", requires = "plot")]
-    pub draw: Vec<DrawArg>,
-    #[command(flatten)]
-    pub measured: MeasuredArgs,
-}
-
-#[derive(Args)]
 #[command(
     after_help = "Example:\n  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html\n\nTargets that are missed are no failure here: the table has the share of runs that reached them."
 )]
@@ -162,125 +140,6 @@ pub struct Compare {
 }
 
 #[derive(Args)]
-#[command(after_help = "Example:\n  evenly zoneplate points.txt -o plate.png")]
-pub struct Zoneplate {
-    /// Points as .txt, .csv or .npy; - is stdin. One sample a pixel: a torus is repeated, a rectangle must have enough
-    pub input: PathBuf,
-    #[command(flatten)]
-    pub space: SpaceArgs,
-    /// Pixels a side, 16 to 4096
-    #[arg(long, value_name = "N", default_value_t = 512)]
-    pub pixels: usize,
-    /// The wave's frequency at the right side, in waves a pixel: above 0, at most 8
-    #[arg(long, value_name = "F", default_value_t = 1.5)]
-    pub frequency: f64,
-    /// What makes pixels of samples
-    #[arg(long, value_enum, default_value = "mitchell")]
-    pub filter: FilterArg,
-    /// The sampled plate, as .png
-    #[arg(short, long, value_name = "OUT")]
-    pub output: Option<PathBuf>,
-    #[command(flatten)]
-    pub measured: MeasuredArgs,
-}
-
-#[derive(Args)]
-#[command(after_help = "Example:\n  evenly bilateral photo.png --samples points.txt -o filtered.png")]
-pub struct Bilateral {
-    /// A picture, .png or .jpg; - is stdin
-    pub input: PathBuf,
-    /// Points as .txt, .csv or .npy: where the picture is looked at. A torus is repeated, a rectangle must have enough
-    #[arg(long, value_name = "FILE")]
-    pub samples: PathBuf,
-    #[command(flatten)]
-    pub space: SpaceArgs,
-    /// The kernel's width, in pixels: 2 to 1000
-    #[arg(long, value_name = "PX", default_value_t = 40.0)]
-    pub kernel: f64,
-    /// Samples in a kernel, on average
-    #[arg(long, value_name = "K", default_value_t = 30.0)]
-    pub count: f64,
-    /// How different intensities may be and still be mixed, as a standard deviation; white is 1
-    #[arg(long, value_name = "R", default_value_t = 0.1)]
-    pub range: f64,
-    /// The filtered picture, as .png
-    #[arg(short, long, value_name = "OUT")]
-    pub output: Option<PathBuf>,
-    /// The picture filtered with all pixels, as .png
-    #[arg(long, value_name = "OUT")]
-    pub full: Option<PathBuf>,
-    #[command(flatten)]
-    pub measured: MeasuredArgs,
-}
-
-#[derive(Args)]
-#[command(
-    after_help = "Example:\n  evenly reproduce push-pull --quick -o pages\n\nInterrupted, it leaves the parts that are done, and the same command goes on with the others."
-)]
-pub struct Reproduce {
-    /// The paper: Papazov and Hege 2017; Ahmed, Guo, Yan et al. 2017; Ebeida et al. 2014
-    #[arg(value_parser = ["procrustes", "push-pull", "opt-beta"])]
-    pub paper: String,
-    /// The folder for PAPER.html and PAPER.json, with --quick PAPER-quick.html and PAPER-quick.json
-    #[arg(short, long, value_name = "DIR", default_value = ".")]
-    pub output: PathBuf,
-    /// Fewer points and sets: under two minutes
-    #[arg(long)]
-    pub quick: bool,
-    #[command(flatten)]
-    pub run: LongArgs,
-}
-
-/// What long work takes besides.
-#[derive(Args)]
-pub struct LongArgs {
-    /// Overwrite existing files
-    #[arg(long)]
-    pub force: bool,
-    /// Threads; the result does not depend on them [default: all]
-    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
-    /// Say nothing but errors
-    #[arg(short, long)]
-    pub quiet: bool,
-}
-
-/// What verbs that measure take besides.
-#[derive(Args)]
-pub struct MeasuredArgs {
-    /// Print what was measured as JSON
-    #[arg(long)]
-    pub json: bool,
-    /// Overwrite existing files
-    #[arg(long)]
-    pub force: bool,
-    /// Threads; the result does not depend on them [default: all]
-    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum FilterArg {
-    /// Piecewise cubic, 4 pixels wide
-    Mitchell,
-    /// A Gaussian 3 pixels wide
-    Gaussian,
-}
-
-#[derive(Args)]
-pub struct SpaceArgs {
-    /// The domain: torus (periodic, its sets tile the plane) or rect (bounded)
-    #[arg(long, value_enum, default_value = "torus")]
-    pub space: SpaceKind,
-    /// Width and height
-    #[arg(long, value_name = "W,H", default_value = "1,1", value_parser = parse_pair, allow_hyphen_values = true)]
-    pub size: [f64; 2],
-    /// Lower left corner
-    #[arg(long, value_name = "X,Y", default_value = "0,0", value_parser = parse_pair, allow_hyphen_values = true)]
-    pub origin: [f64; 2],
-}
-
-#[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub struct RunArgs {
     /// Where the points go: .txt .csv .npy, or drawn: .svg .png .pdf; - is stdout
@@ -312,80 +171,9 @@ pub struct RunArgs {
     pub verbose: bool,
 }
 
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum SpaceKind {
-    /// Opposite sides are one
-    Torus,
-    /// Bounded
-    #[value(alias = "rectangle")]
-    Rect,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum DrawArg {
-    /// The points
-    Points,
-    /// The Delaunay triangulation
-    Delaunay,
-    /// The Voronoi diagram
-    Voronoi,
-    /// Voronoi cells coloured by their number of neighbours
-    Valence,
-    /// Voronoi cells coloured by their area
-    Capacity,
-    /// The power spectrum, in log grey
-    Spectrum,
-    /// The radial mean of the power spectrum
-    Radial,
-    /// How much the power differs by direction
-    Anisotropy,
-    /// The pair correlation
-    Correlation,
-    /// The angles of the triangles
-    Angles,
-    /// One page of all of it
-    Report,
-}
-
 /// The whole command, with what the table of methods adds to the help.
 pub fn command() -> Clap {
     Cli::command().mut_subcommand("generate", with_methods).mut_subcommand("optimize", with_methods).mut_subcommand("compare", with_methods)
-}
-
-impl From<FilterArg> for ReconstructionFilter {
-    fn from(filter: FilterArg) -> Self {
-        match filter {
-            FilterArg::Mitchell => Self::Mitchell,
-            FilterArg::Gaussian => Self::Gaussian,
-        }
-    }
-}
-
-impl From<DrawArg> for Draw {
-    fn from(layer: DrawArg) -> Self {
-        match layer {
-            DrawArg::Points => Self::Points,
-            DrawArg::Delaunay => Self::Delaunay,
-            DrawArg::Voronoi => Self::Voronoi,
-            DrawArg::Valence => Self::Valence,
-            DrawArg::Capacity => Self::Capacity,
-            DrawArg::Spectrum => Self::PowerSpectrum,
-            DrawArg::Radial => Self::RadialPower,
-            DrawArg::Anisotropy => Self::Anisotropy,
-            DrawArg::Correlation => Self::PairCorrelation,
-            DrawArg::Angles => Self::Angles,
-            DrawArg::Report => Self::Report,
-        }
-    }
-}
-
-impl SpaceArgs {
-    pub fn space(&self) -> Result<Space, Error> {
-        Ok(match self.space {
-            SpaceKind::Torus => Torus::new(self.origin, self.size)?.into(),
-            SpaceKind::Rect => Rectangle::new(self.origin, self.size)?.into(),
-        })
-    }
 }
 
 fn parse_count(text: &str) -> Result<usize, String> {
@@ -397,14 +185,6 @@ fn parse_count(text: &str) -> Result<usize, String> {
     match number {
         Some(n) if (1..=MAX_POINTS).contains(&n) => Ok(n),
         _ => Err(format!("it must be a whole number from 1 to {MAX_POINTS}")),
-    }
-}
-
-fn parse_pair(text: &str) -> Result<[f64; 2], String> {
-    let numbers: Vec<f64> = text.split(',').map_while(|number| number.trim().parse().ok()).collect();
-    match numbers[..] {
-        [a, b] if text.split(',').count() == 2 => Ok([a, b]),
-        _ => Err("it must be two numbers with a comma between them".into()),
     }
 }
 

@@ -1,11 +1,19 @@
 //! Points from a file or stdin, brought into a domain.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use evenly::{PointSet, Space};
 
 use crate::talk::say;
+
+/// Refuses to read stdin twice.
+pub fn require_one_stdin<'a>(inputs: impl IntoIterator<Item = &'a PathBuf>) -> anyhow::Result<()> {
+    if inputs.into_iter().filter(|path| path.as_os_str() == "-").count() > 1 {
+        bail!("- is stdin, which can be read once");
+    }
+    Ok(())
+}
 
 /// Reads points; if some lay outside a torus and were wrapped, it says so.
 pub fn read_and_tell(input: &Path, space: Space) -> anyhow::Result<PointSet> {

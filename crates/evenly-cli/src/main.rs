@@ -9,6 +9,7 @@ mod comparison;
 mod input;
 mod interrupt;
 mod measured;
+mod measuring_args;
 mod method;
 mod method_args;
 mod optimizer;
@@ -16,6 +17,7 @@ mod page;
 mod record;
 mod reproduce;
 mod session;
+mod shared_args;
 mod table;
 mod talk;
 

@@ -43,7 +43,7 @@ impl<'a> Session<'a> {
     pub fn new(args: &'a RunArgs, seed: Option<u64>) -> anyhow::Result<Self> {
         let output = Target::new(&args.output, args.format, args.force)?;
         if args.draw.is_some() && output.format().holds_points() {
-            bail!("--draw needs a figure, .svg or .png; {} is none", output.name());
+            bail!("--draw needs a figure, .svg, .png or .pdf; {} is none", output.name());
         }
         if args.json && output.is_stdout() {
             bail!("--json and the points cannot both go to stdout; name a file with -o, or with --report");

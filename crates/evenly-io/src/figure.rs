@@ -2,6 +2,7 @@
 
 mod chart;
 mod curves;
+mod draw;
 mod map;
 mod page;
 mod series;
@@ -13,6 +14,7 @@ use evenly::Image;
 use crate::Error;
 use crate::pixels::{bytes, colour, encode};
 pub use chart::Axis;
+pub use draw::Draw;
 use page::Page;
 pub use page::Subject;
 pub use series::{Curve, chart};
@@ -27,39 +29,6 @@ pub fn picture(image: &Image) -> String {
     drawing(size, "", &svg::embedded(&png, size))
 }
 
-/// What a figure shows: layers of a map, which lie on each other in this order, charts, and a page of all.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Draw {
-    /// Voronoi cells coloured by their number of neighbours: white for 6, blues below, oranges above; 5 bears a minus, 7 a plus.
-    Valence,
-    /// Voronoi cells coloured by their area: dark for half the mean, light for one and a half.
-    Capacity,
-    /// The edges of the Voronoi diagram.
-    Voronoi,
-    /// The edges of the Delaunay triangulation.
-    Delaunay,
-    /// The points.
-    Points,
-    /// The power of each frequency, in log grey.
-    PowerSpectrum,
-    /// The radial mean of the power spectrum.
-    RadialPower,
-    /// How much the power differs by direction.
-    Anisotropy,
-    /// How many points there are at a distance from a point.
-    PairCorrelation,
-    /// The angles of the Delaunay triangles.
-    Angles,
-    /// A page of all these, with the measures; of many points the maps show a corner.
-    Report,
-}
-
-impl Draw {
-    fn is_layer(self) -> bool {
-        self <= Self::Points
-    }
-}
-
 /// Draws a figure: a map of all layers together, as large as there is room; or panels, the map first and then each chart.
 ///
 /// # Errors
@@ -69,9 +38,13 @@ pub fn figure(subject: &Subject, draw: &[Draw], recipe: &str) -> Result<String, 
     parts.sort_unstable();
     parts.dedup();
     if let (Some(points), true) = (subject.sets.first(), parts.iter().all(|part| part.is_layer())) {
-        let (body, size) = map::map(points, &parts, subject.most_points.unwrap_or(usize::MAX))?;
+        let (body, size) = map::map(points, &parts, subject.most_points.unwrap_or(usize::MAX), &map::Tessellated::default())?;
         return Ok(drawing(size, recipe, &body));
     }
-    let (body, size) = Page::of(subject, &parts)?.finish();
+    // What several panels show is computed once; what cannot be is said where it is asked for.
+    let is_spectral = parts.iter().any(|part| part.is_spectral());
+    let (radial, power) = if is_spectral { (subject.radial().ok(), subject.power().ok()) } else { (None, None) };
+    let subject = Subject { radial: radial.as_deref(), power: power.as_deref(), ..*subject };
+    let (body, size) = Page::of(&subject, &parts)?.finish();
     Ok(drawing(size, recipe, &body))
 }

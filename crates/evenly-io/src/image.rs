@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use evenly::Image;
-use image::{DynamicImage, ImageReader};
+use image::{DynamicImage, ImageDecoder as _, ImageReader};
 
 use crate::file::read_bytes;
 use crate::pixels::{bytes, colour, encode};
@@ -17,17 +17,19 @@ use crate::{Error, Target};
 pub fn read_image(path: &Path) -> Result<Image, Error> {
     let (name, bytes) = read_bytes(path)?;
     let unreadable = |e: image::ImageError| Error::content(&name, format!("not a readable PNG or JPEG ({e})"));
-    let reader = || {
-        let mut reader = ImageReader::new(Cursor::new(&bytes));
-        reader.no_limits();
-        reader.with_guessed_format().map_err(|e| unreadable(e.into()))
-    };
-    let (width, height) = reader()?.into_dimensions().map_err(unreadable)?;
+    let mut reader = ImageReader::new(Cursor::new(&bytes));
+    reader.no_limits();
+    let mut decoder = reader.with_guessed_format().map_err(|e| unreadable(e.into()))?.into_decoder().map_err(unreadable)?;
+    let (width, height) = decoder.dimensions();
     if width as usize * height as usize > Image::MOST_PIXELS {
         let problem = format!("{width} x {height} pixels; at most {} are possible: make it smaller", Image::MOST_PIXELS);
         return Err(Error::content(&name, problem));
     }
-    let picture = reader()?.decode().map_err(unreadable)?;
+    // Cameras turn the picture, not the pixels.
+    let orientation = decoder.orientation().map_err(unreadable)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
+    picture.apply_orientation(orientation);
+    let (width, height) = (picture.width(), picture.height());
     let (n_channels, values) = values(picture);
     Image::new(width as usize, height as usize, n_channels, values).map_err(|e| Error::content(&name, e.to_string()))
 }

@@ -1,4 +1,4 @@
-//! Everything of evenly that touches files: points in and out, figures out.
+//! Everything of evenly that touches files: points and pictures in and out, figures out.
 //!
 //! A file is written whole or not at all; an error names the file, the line and the value.
 

@@ -1,6 +1,5 @@
 //! `evenly analyze`: the proof.
 
-use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context as _, bail};
@@ -11,12 +10,9 @@ use evenly_io::{Draw, Subject, Target, write_figure};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::args::Analyze;
 use crate::measured::{self, fields, line, shown};
+use crate::measuring_args::Analyze;
 use crate::{input, record, session};
-
-/// Up to which frequency the power is looked at, in inverse mean spacings.
-const MAX_FREQUENCY: f64 = 4.0;
 
 pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
@@ -30,22 +26,30 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     if args.local && args.inputs.len() > 1 {
         bail!("--local is for one set");
     }
+    if args.local && !args.spectrum && plot.is_none() {
+        bail!("--local is for --spectrum and --plot");
+    }
+    input::require_one_stdin(&args.inputs)?;
     let sets: Vec<PointSet> = args.inputs.iter().map(|path| input::read_and_tell(path, space)).collect::<anyhow::Result<_>>()?;
     let pool = session::pool(args.measured.threads)?;
     let names = || args.inputs.iter().map(|path| path.display().to_string());
     let measured = names().zip(&sets).map(|(name, points)| Ok((name.clone(), pool.install(|| measure(points)).context(name)?)));
     let measured: Vec<(String, Measures)> = measured.collect::<anyhow::Result<_>>()?;
-    let spectrum = if args.spectrum {
-        Some(pool.install(|| Spectrum::of(&sets, args.local)).with_context(|| names().collect::<Vec<_>>().join(", "))?)
-    } else {
-        None
+    let parts: Vec<Draw> = args.draw.iter().map(|&part| part.into()).collect();
+    let is_drawn = plot.is_some() && parts.iter().any(|part| part.is_spectral());
+    let spectrum = if args.spectrum || is_drawn { Some(pool.install(|| Spectrum::of(&sets, args.local))) } else { None };
+    let spectrum = match spectrum {
+        // A figure itself tells what it cannot draw.
+        Some(Err(_)) if !args.spectrum => None,
+        Some(spectrum) => Some(spectrum.with_context(|| names().collect::<Vec<_>>().join(", "))?),
+        None => None,
     };
     if let Some(plot) = &plot {
-        let parts: Vec<Draw> = args.draw.iter().map(|&part| part.into()).collect();
         let (radial, power) = (spectrum.as_ref().map(|s| &s.radial), spectrum.as_ref().and_then(|s| s.power.as_ref()));
         let subject = Subject { sets: &sets, name: &title(args), is_local: args.local, most_points: None, radial, power };
         pool.install(|| write_figure(&subject, &parts, &record::recipe(None), plot)).with_context(|| plot.name())?;
     }
+    let spectrum = spectrum.filter(|_| args.spectrum);
     let found = Found { measured, spectrum };
     measured::print(&found.json(), args.measured.json, || found.table())
 }
@@ -67,9 +71,28 @@ impl Spectrum {
     fn of(sets: &[PointSet], is_local: bool) -> Result<Self, evenly::Error> {
         Ok(match sets {
             [points] if is_local => Self { radial: differential_spectrum(points, &local_spacings(points)?)?, power: None },
-            _ => Self { radial: radial_spectrum(sets)?, power: Some(power_spectrum(sets, MAX_FREQUENCY)?) },
+            _ => Self { radial: radial_spectrum(sets)?, power: Some(power_spectrum(sets, PowerSpectrum::MAX_FREQUENCY)?) },
         })
     }
+}
+
+/// A name's last letters, as many as a column holds.
+fn ending(name: &str) -> String {
+    const MOST: usize = 24;
+    let n = name.chars().count();
+    if n <= MOST { name.into() } else { std::iter::once('\u{2026}').chain(name.chars().skip(n + 1 - MOST)).collect() }
+}
+
+/// The counts of valences as fields of their own, which stand in columns.
+fn spread(mut measures: serde_json::Map<String, Value>) -> serde_json::Map<String, Value> {
+    if let Some(Value::Object(counts)) = measures.remove("valence") {
+        let of = |is_it: &dyn Fn(usize) -> bool| -> u64 {
+            counts.iter().filter(|(k, _)| k.parse().is_ok_and(is_it)).filter_map(|(_, n)| n.as_u64()).sum()
+        };
+        measures.extend([5, 6, 7].map(|k| (format!("valence_{k}"), of(&|n| n == k).into())));
+        measures.insert("valence_other".into(), of(&|n| !(5..=7).contains(&n)).into());
+    }
+    measures
 }
 
 /// The first file's name.
@@ -109,9 +132,10 @@ impl Found {
         let mut text = String::new();
         for sets in self.measured.chunks(ABREAST) {
             if self.measured.len() > 1 {
-                line(&mut text, "", sets.iter().map(|(name, _)| Path::new(name).file_name().unwrap_or_default().display().to_string()));
+                line(&mut text, "", sets.iter().map(|(name, _)| ending(name)));
             }
             let columns: Vec<_> = sets.iter().map(|(_, measures)| fields(serde_json::json!(measures))).collect();
+            let columns: Vec<_> = if columns.len() > 1 { columns.into_iter().map(spread).collect() } else { columns };
             for name in columns[0].keys() {
                 line(&mut text, name, columns.iter().map(|column| shown(name, &column[name])));
             }

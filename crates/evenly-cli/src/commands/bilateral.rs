@@ -3,16 +3,20 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use evenly::{BilateralParams, bilateral, subsampled_bilateral};
 use evenly_io::{Target, read_image, write_image};
 
-use crate::args::Bilateral;
+use crate::measuring_args::Bilateral;
 use crate::{input, measured, record, session};
 
 pub fn run(args: &Bilateral) -> anyhow::Result<ExitCode> {
     let target = |path: &Option<PathBuf>| path.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose();
     let (output, full) = (target(&args.output)?, target(&args.full)?);
+    if output.as_ref().zip(full.as_ref()).is_some_and(|(output, full)| output.is_same(full)) {
+        bail!("--output and --full are the same file");
+    }
+    input::require_one_stdin([&args.input, &args.samples])?;
     let image = read_image(&args.input)?;
     let samples = input::read_and_tell(&args.samples, args.space.space()?)?;
     let params = BilateralParams { kernel_px: args.kernel, range: args.range, n_samples: args.count };

@@ -2,12 +2,12 @@
 
 use std::process::ExitCode;
 
-use anyhow::{Context as _, bail};
+use anyhow::Context as _;
 use evenly::CancelToken;
 use evenly_io::{Scraps, Target, make_folder};
 use serde_json::json;
 
-use crate::args::Reproduce;
+use crate::measuring_args::Reproduce;
 use crate::reproduce::{Done, Lab, STUDIES, html};
 use crate::talk::say;
 use crate::{interrupt, record, session};
@@ -35,14 +35,19 @@ pub fn run(args: &Reproduce) -> anyhow::Result<ExitCode> {
     let done = pool.install(|| study.run(&lab, &scraps))?;
     lab.bar.finish_and_clear();
     if done.is_empty() {
-        bail!("no part was done, so there is nothing to show");
+        say("no part is done, so there is nothing to show");
+        return Ok(ExitCode::from(interrupt::CODE));
     }
     page.write(html(study, &done, args.quick).as_bytes())?;
     let parts: Vec<&Done> = done.iter().collect();
     let record = json!({ "version": record::VERSION, "command": record::command(), "paper": study.name, "is_quick": args.quick, "parts": without_pictures(&parts)? });
     data.write((serde_json::to_string_pretty(&record)? + "\n").as_bytes())?;
     if done.len() < study.parts.len() {
-        say(format_args!("{} of {} parts are done; the same command goes on with the others", done.len(), study.parts.len()));
+        say(format_args!(
+            "{} of {} parts are done; the same command, without --force, goes on with the others",
+            done.len(),
+            study.parts.len()
+        ));
         return Ok(ExitCode::from(interrupt::CODE));
     }
     scraps.clear()?;

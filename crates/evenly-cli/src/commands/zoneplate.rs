@@ -6,7 +6,7 @@ use anyhow::Context as _;
 use evenly::{ZonePlateParams, zone_plate};
 use evenly_io::{Target, write_image};
 
-use crate::args::Zoneplate;
+use crate::measuring_args::Zoneplate;
 use crate::{input, measured, record, session};
 
 pub fn run(args: &Zoneplate) -> anyhow::Result<ExitCode> {

@@ -152,7 +152,7 @@ pub struct Profile {
 impl Profile {
     pub fn of(sets: &[PointSet]) -> Result<Self, Error> {
         let measures = sets.iter().map(measure).collect::<Result<_, _>>()?;
-        Ok(Self { measures, radial: radial_spectrum(sets)?, power: power_spectrum(sets, 4.0)? })
+        Ok(Self { measures, radial: radial_spectrum(sets)?, power: power_spectrum(sets, PowerSpectrum::MAX_FREQUENCY)? })
     }
 
     /// A figure of the sets it was made of.

@@ -34,7 +34,7 @@ pub const STUDY: Study = Study {
 /// Of the sets that are shown. Opt-beta's steps get stuck at a single spot of some.
 const SEED: u64 = 1;
 
-const BELOW: &str = "Opt-beta's own steps go down to about 0.79 with 10,000 points, though one set of five got stuck at 0.86 at a single spot; the rows of well-spaced points, evenly's way to low ratios, go on where they end.";
+const BELOW: &str = "Opt-beta's own steps go down to about 0.79 with 10,000 points, though of five sets that were tried one got stuck at 0.86 at a single spot; the rows of well-spaced points, evenly's way to low ratios, go on where they end.";
 
 fn figure_2(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new("The ratio beta of coverage radius to smallest distance, by type of distribution.");
@@ -74,12 +74,13 @@ fn tiling(points: &[[f64; 2]], [width, height]: [f64; 2]) -> anyhow::Result<Poin
     Ok(PointSet::new(Torus::new([0.0, 0.0], [N as f64 * width, N as f64 * height])?, places)?)
 }
 
-/// How often values fall in bins from `low` to `high`, as a share of all.
+/// How often values fall in each of the bins between `low` and `high`, as a share of all values.
 fn spread(name: &str, values: &[f64], [low, high]: [f64; 2], n_bins: usize) -> Curve {
     let width = (high - low) / n_bins as f64;
     let mut counts = vec![0.0; n_bins];
     for value in values {
-        if let Some(count) = counts.get_mut(((value - low) / width).floor().max(0.0) as usize) {
+        let bin = ((value - low) / width).floor();
+        if let Some(count) = counts.get_mut(bin as usize).filter(|_| bin >= 0.0) {
             *count += 100.0 / values.len() as f64;
         }
     }
@@ -278,7 +279,7 @@ fn figure_11(lab: &Lab) -> anyhow::Result<Part> {
         for &iterations in steps {
             lab.check()?;
             let mut points = begin.clone();
-            let run = &mut RunContext::default();
+            let run = &mut RunContext::default().with_cancel(lab.cancel.clone());
             match is_lloyd {
                 _ if iterations == 0 => {}
                 true => drop(lloyd(&mut points, &LloydParams { iterations, tolerance: 0.0, ..LloydParams::default() }, run)?),

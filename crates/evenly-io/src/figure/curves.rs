@@ -64,7 +64,12 @@ pub(super) fn angles(size: [f64; 2], tessellation: &Tessellation) -> Chart<'stat
     for corners in &tessellation.corners {
         for corner in 0..3 {
             let [p, q, r] = [0, 1, 2].map(|step| corners[(corner + step) % 3]);
-            let ([ux, uy], [vx, vy]) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
+            // Of length 1, so that products of tiny lengths do not vanish.
+            let way = |to: [f64; 2]| {
+                let (x, y) = (to[0] - p[0], to[1] - p[1]);
+                [x / x.hypot(y), y / x.hypot(y)]
+            };
+            let ([ux, uy], [vx, vy]) = (way(q), way(r));
             let angle = (ux * vy - uy * vx).abs().atan2(ux * vx + uy * vy).to_degrees();
             counts[((angle / WIDTH) as usize).min(89)] += 1;
         }

@@ -1,12 +1,29 @@
 //! Maps: the points themselves, and what lies between them, with exact coordinates.
 
+use std::cell::OnceCell;
 use std::fmt::Write as _;
 
 use evenly::{PointSet, Tessellation, tessellate};
 
-use super::Draw;
+use super::draw::Draw;
 use super::svg::Short;
 use crate::Error;
+
+/// The tessellation of the one set that is drawn, made where it is first needed.
+#[derive(Default)]
+pub(super) struct Tessellated(OnceCell<Tessellation>);
+
+impl Tessellated {
+    pub fn of(&self, points: &PointSet) -> Result<&Tessellation, Error> {
+        Ok(match self.0.get() {
+            Some(known) => known,
+            None => {
+                let made = tessellate(points)?;
+                self.0.get_or_init(|| made)
+            }
+        })
+    }
+}
 
 /// The longer side of the drawing, in its own units.
 const SIDE: f64 = 800.0;
@@ -21,12 +38,12 @@ const COLOURS: [&str; 5] = ["#004c7f", "#56b4e9", "#ffffff", "#e69f00", "#9c3d00
 ///
 /// # Errors
 /// [`Error::Points`] where a layer needs a triangulation and the points have none: fewer than three, or all on one line.
-pub(super) fn map(points: &PointSet, layers: &[Draw], most: usize) -> Result<(String, [f64; 2]), Error> {
+pub(super) fn map(points: &PointSet, layers: &[Draw], most: usize, known: &Tessellated) -> Result<(String, [f64; 2]), Error> {
     let canvas = Canvas::new(points, most);
     let mut svg = String::new();
-    let tessellation = if layers.iter().any(|&layer| layer != Draw::Points) { Some(tessellate(points)?) } else { None };
+    let tessellation = if layers.iter().any(|&layer| layer != Draw::Points) { Some(known.of(points)?) } else { None };
     for layer in layers {
-        match (layer, &tessellation) {
+        match (layer, tessellation) {
             (Draw::Points, _) => canvas.points(&mut svg, points),
             (Draw::Delaunay, Some(tessellation)) => {
                 let corners = tessellation.corners.iter().map(|c| c.as_slice());
@@ -118,10 +135,10 @@ impl Canvas {
     }
 
     fn capacities(&self, svg: &mut String, points: &PointSet, tessellation: &Tessellation) {
-        let [width, height] = points.space().size();
-        let mean = width * height / points.n_points() as f64;
+        // Of the hexagonal lattice a cell has sqrt(3) / 2 squared spacings.
+        let spacing = points.hex_spacing();
         let class = |cell: usize| {
-            let capacity = area(&tessellation.cells[cell]) / mean;
+            let capacity = area(&tessellation.cells[cell], spacing) / (0.5 * 3f64.sqrt());
             Some(((capacity - 0.5) * AREAS.len() as f64).clamp(0.0, AREAS.len() as f64 - 1.0) as usize)
         };
         self.fill(svg, &tessellation.cells, &AREAS, class);
@@ -187,9 +204,12 @@ fn seen([width, height]: [f64; 2], share: f64) -> [f64; 2] {
     }
 }
 
-/// The area of a polygon, relative to its first corner, so that a far origin costs no digits.
-fn area(polygon: &[[f64; 2]]) -> f64 {
+/// The area of a polygon in squared units, relative to its first corner, so that neither a far origin nor a tiny domain costs digits.
+fn area(polygon: &[[f64; 2]], unit: f64) -> f64 {
     let Some(&[x, y]) = polygon.first() else { return 0.0 };
-    let cross = |pair: &[[f64; 2]]| (pair[0][0] - x) * (pair[1][1] - y) - (pair[1][0] - x) * (pair[0][1] - y);
+    let cross = |pair: &[[f64; 2]]| {
+        let [[a, b], [c, d]] = [pair[0], pair[1]].map(|p| [(p[0] - x) / unit, (p[1] - y) / unit]);
+        a * d - c * b
+    };
     0.5 * polygon.windows(2).map(cross).sum::<f64>().abs()
 }

@@ -4,13 +4,13 @@ use std::borrow::Cow;
 
 use evenly::{
     Measures, PointSet, PowerSpectrum, RadialSpectrum, differential_spectrum, local_spacings, measure, power_spectrum, radial_spectrum,
-    tessellate,
 };
 
-use super::map::map;
+use super::curves;
+use super::draw::Draw;
+use super::map::{Tessellated, map};
 use super::svg::{Anchor, inset, text};
 use super::waves::waves;
-use super::{Draw, curves};
 use crate::Error;
 
 /// A panel's side, and the room between panels, above them, and around all.
@@ -24,9 +24,6 @@ const TITLE: f64 = 40.0;
 const COLUMNS: usize = 3;
 /// The points in a report's map.
 const MOST: usize = 1000;
-/// Up to which frequency the power is drawn, in inverse mean spacings.
-const MAX_FREQUENCY: f64 = 4.0;
-
 /// What a figure is of.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
@@ -55,7 +52,7 @@ impl Subject<'_> {
         self.sets.first().ok_or_else(|| evenly::Error::Degenerate("there are no points".into()).into())
     }
 
-    fn radial(&self) -> Result<Cow<'_, RadialSpectrum>, Error> {
+    pub(super) fn radial(&self) -> Result<Cow<'_, RadialSpectrum>, Error> {
         Ok(match self.radial {
             Some(known) => Cow::Borrowed(known),
             None if self.is_local => Cow::Owned(differential_spectrum(self.first()?, &local_spacings(self.first()?)?)?),
@@ -63,10 +60,14 @@ impl Subject<'_> {
         })
     }
 
-    fn power(&self) -> Result<Cow<'_, PowerSpectrum>, Error> {
+    pub(super) fn power(&self) -> Result<Cow<'_, PowerSpectrum>, Error> {
+        if self.is_local {
+            let varies = "a power spectrum means nothing where the density varies; its radial mean and the pair correlation do";
+            return Err(evenly::Error::Degenerate(varies.into()).into());
+        }
         Ok(match self.power {
             Some(known) => Cow::Borrowed(known),
-            None => Cow::Owned(power_spectrum(self.sets, MAX_FREQUENCY)?),
+            None => Cow::Owned(power_spectrum(self.sets, PowerSpectrum::MAX_FREQUENCY)?),
         })
     }
 }
@@ -77,6 +78,7 @@ pub(super) struct Page {
     title: String,
     n_panels: usize,
     n_columns: usize,
+    tessellated: Tessellated,
 }
 
 impl Page {
@@ -87,7 +89,7 @@ impl Page {
         let (layers, charts): (Vec<Draw>, Vec<Draw>) = parts.iter().partition(|part| part.is_layer());
         let n_panels = charts.len() + usize::from(!layers.is_empty());
         let n_columns = if n_panels == 4 { 2 } else { n_panels.min(COLUMNS) };
-        let mut page = Self { body: String::new(), title: String::new(), n_panels: 0, n_columns };
+        let mut page = Self { body: String::new(), title: String::new(), n_panels: 0, n_columns, tessellated: Tessellated::default() };
         if !layers.is_empty() {
             page.map(subject, &layers, subject.most_points.unwrap_or(usize::MAX))?;
         }
@@ -102,17 +104,18 @@ impl Page {
         let points = subject.first()?;
         let kind = if points.space().is_periodic() { "torus" } else { "rectangle" };
         let many = if subject.sets.len() > 1 { format!(", the first of {} sets", subject.sets.len()) } else { String::new() };
-        let heading = format!("{}: {} points, {kind} {}{many}", subject.name, points.n_points(), points.space());
-        let mut page = Self { body: String::new(), title: heading, n_panels: 0, n_columns: COLUMNS };
+        let name = if subject.name.is_empty() { String::new() } else { format!("{}: ", subject.name) };
+        let heading = format!("{name}{} points, {kind} {}{many}", points.n_points(), points.space());
+        let mut page = Self { body: String::new(), title: heading, n_panels: 0, n_columns: COLUMNS, tessellated: Tessellated::default() };
         for layers in [[Draw::Points], [Draw::Valence], [Draw::Capacity]] {
-            page.attempt(title(layers[0]), |page| page.map(subject, &layers, subject.most_points.unwrap_or(MOST)));
+            page.attempt(layers[0].title(), |page| page.map(subject, &layers, subject.most_points.unwrap_or(MOST)));
         }
         let charts: &[Draw] = match subject.is_local {
             true => &[Draw::RadialPower, Draw::PairCorrelation, Draw::Angles],
             false => &[Draw::PowerSpectrum, Draw::RadialPower, Draw::Anisotropy, Draw::PairCorrelation, Draw::Angles],
         };
         for &chart in charts {
-            page.attempt(title(chart), |page| page.chart(subject, chart));
+            page.attempt(chart.title(), |page| page.chart(subject, chart));
         }
         page.attempt("Measures", |page| page.table(&measure(points)?));
         Ok(page)
@@ -144,11 +147,13 @@ impl Page {
 
     fn map(&mut self, subject: &Subject, layers: &[Draw], most: usize) -> Result<(), Error> {
         let points = subject.first()?;
-        let (body, size) = map(points, layers, most)?;
-        let title = layers.iter().map(|&layer| title(layer)).collect::<Vec<_>>().join(", ");
-        let caption = match layers {
-            [Draw::Points] if points.n_points() > most => format!("a corner with some {most} of them"),
-            layers => layers.iter().map(|&layer| caption(layer)).collect(),
+        let (body, size) = map(points, layers, most, &self.tessellated)?;
+        let title = layers.iter().map(|&layer| layer.title()).collect::<Vec<_>>().join(", ");
+        let meaning: String = layers.iter().map(|&layer| layer.caption()).collect();
+        let caption = match (points.n_points() > most, meaning.is_empty()) {
+            (true, true) => format!("a corner with some {most} of them"),
+            (true, false) => format!("a corner; {meaning}"),
+            (false, _) => meaning,
         };
         let place = self.panel(&title, &caption);
         let scale = SIDE / size[0].max(size[1]);
@@ -158,7 +163,9 @@ impl Page {
 
     fn chart(&mut self, subject: &Subject, chart: Draw) -> Result<(), Error> {
         let size = [SIDE, SIDE];
-        let place = |page: &mut Self| page.panel(title(chart), caption(chart));
+        let caption =
+            if subject.is_local && chart == Draw::RadialPower { "each distance in the spacing of its place" } else { chart.caption() };
+        let place = |page: &mut Self| page.panel(chart.title(), caption);
         match chart {
             Draw::PowerSpectrum => {
                 let power = subject.power()?;
@@ -182,7 +189,7 @@ impl Page {
                 chart.finish(&mut self.body, place);
             }
             _ => {
-                let chart = curves::angles(size, &tessellate(subject.first()?)?);
+                let chart = curves::angles(size, self.tessellated.of(subject.first()?)?);
                 let place = place(self);
                 chart.finish(&mut self.body, place);
             }
@@ -219,41 +226,11 @@ impl Page {
 
     /// The body of a drawing, and its size.
     pub fn finish(mut self) -> (String, [f64; 2]) {
-        let title = std::mem::take(&mut self.title);
-        let top = if title.is_empty() { 0.0 } else { TITLE };
+        let (top, title) = (self.top(), std::mem::take(&mut self.title));
         text(&mut self.body, [MARGIN, 30.0], 17.0, Anchor::Start, &title);
         let n_rows = self.n_panels.div_ceil(self.n_columns.max(1));
         let long = |n: usize, extra: f64| n as f64 * (SIDE + GAP + extra) - GAP + 2.0 * MARGIN;
         (self.body, [long(self.n_columns, 0.0), top + long(n_rows, HEAD) - MARGIN])
-    }
-}
-
-fn title(part: Draw) -> &'static str {
-    match part {
-        Draw::Valence => "Neighbours",
-        Draw::Capacity => "Voronoi areas",
-        Draw::Voronoi => "Voronoi diagram",
-        Draw::Delaunay => "Delaunay triangulation",
-        Draw::Points => "Points",
-        Draw::PowerSpectrum => "Power spectrum",
-        Draw::RadialPower => "Radial mean",
-        Draw::Anisotropy => "Anisotropy",
-        Draw::PairCorrelation => "Pair correlation",
-        Draw::Angles => "Angles of triangles",
-        Draw::Report => "Report",
-    }
-}
-
-fn caption(part: Draw) -> &'static str {
-    match part {
-        Draw::Valence => "six white, five blue with a minus, seven orange with a plus",
-        Draw::Capacity => "from half the mean (dark) to one and a half (light)",
-        Draw::PowerSpectrum => "frequency 0 in the middle; log grey from 0.01 to 10, white noise is 1",
-        Draw::RadialPower => "black: from all distances; blue: over rings of the spectrum",
-        Draw::Anisotropy => "dashed: what depends on no direction",
-        Draw::PairCorrelation => "dashed: white noise",
-        Draw::Angles => "dotted: 90\u{b0}",
-        _ => "",
     }
 }
 

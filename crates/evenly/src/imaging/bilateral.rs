@@ -16,7 +16,7 @@ use crate::points::PointSet;
 pub struct BilateralParams {
     /// The kernel's width and height, in pixels, 2 to 1000; its Gaussian's standard deviation is a fifth of it.
     pub kernel_px: f64,
-    /// The standard deviation of the Gaussian over differences of intensity, above 0: the smaller, the sharper edges stay.
+    /// The standard deviation of the Gaussian over differences of intensity, a millionth at least: the smaller, the sharper edges stay.
     pub range: f64,
     /// Samples in a kernel on average, 1 or more; not looked at where all pixels are taken.
     pub n_samples: f64,
@@ -63,18 +63,19 @@ pub fn subsampled_bilateral(image: &Image, samples: &PointSet, params: &Bilatera
     let spacing = params.kernel_px / params.n_samples.sqrt();
     let size = [image.width() as f64, image.height() as f64];
     let places = tiled(samples, spacing, size, 0.0)?;
-    // Samples by cells as large as half a kernel: a kernel sees five by five of them at most.
-    let n_cells = size.map(|side| ((side / half).ceil() as usize).max(1));
+    // Samples by cells as large as half a kernel, or a few pixels.
+    let cell = half.max(8.0);
+    let n_cells = size.map(|side| ((side / cell).ceil() as usize).max(1));
     let mut cells: Vec<Vec<[f64; 2]>> = vec![Vec::new(); n_cells[0] * n_cells[1]];
     for [x, y] in places {
         // Places count from the bottom, rows from the top; pixels are where their middles are.
         let at = [x - 0.5, size[1] - y - 0.5];
-        let [column, row] = [0, 1].map(|axis| ((at[axis].max(0.0) / half) as usize).min(n_cells[axis] - 1));
+        let [column, row] = [0, 1].map(|axis| ((at[axis].max(0.0) / cell) as usize).min(n_cells[axis] - 1));
         cells[column + row * n_cells[0]].push(at);
     }
     let near = |at: usize, axis: usize| {
-        let cell = |at: f64| ((at.max(0.0) / half) as usize).min(n_cells[axis] - 1);
-        cell(at as f64 - half)..=cell(at as f64 + half)
+        let of = |at: f64| ((at.max(0.0) / cell) as usize).min(n_cells[axis] - 1);
+        of(at as f64 - half)..=of(at as f64 + half)
     };
     filtered(image, |x, y, mean| {
         let centre = image.pixel(x, y);
@@ -102,8 +103,8 @@ fn validate(params: &BilateralParams) -> Result<(), Error> {
     if !(2.0..=1000.0).contains(&params.kernel_px) {
         return wrong("kernel_px", params.kernel_px, "from 2 to 1000");
     }
-    if !(params.range > 0.0 && params.range.is_finite()) {
-        return wrong("range", params.range, "positive and finite");
+    if !(params.range >= 1e-6 && params.range.is_finite()) {
+        return wrong("range", params.range, "finite, and a millionth at least");
     }
     if !(params.n_samples >= 1.0 && params.n_samples <= params.kernel_px * params.kernel_px) {
         return wrong("n_samples", params.n_samples, "1 or more, and no more than the kernel has pixels");
@@ -235,7 +236,7 @@ mod tests {
         let default = BilateralParams::default();
         for params in [
             BilateralParams { kernel_px: 1.0, ..default },
-            BilateralParams { range: 0.0, ..default },
+            BilateralParams { range: 1e-200, ..default },
             BilateralParams { n_samples: f64::NAN, ..default },
             BilateralParams { n_samples: 1e4, ..default },
         ] {

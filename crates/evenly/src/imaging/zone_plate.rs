@@ -47,7 +47,7 @@ pub struct ZonePlate {
     pub noise: f64,
     /// By how much false coarse patterns exceed their mean where they gather: 0 for none, as for white noise; root mean square over the plate.
     pub aliasing: f64,
-    /// Pixels without a sample near; they are grey.
+    /// Pixels that no sample adds to; they are grey.
     pub empty_pixels: usize,
 }
 
@@ -119,10 +119,13 @@ impl Plate {
         self.chirp * x.hypot(y) / std::f64::consts::PI
     }
 
-    /// Each pixel is the mean of the samples near it, weighted by the filter; and how many pixels have none.
+    /// Each pixel is the mean of the samples near it, weighted by the filter, or, where its negative lobes all but cancel, by its positive part; and how many pixels
+    /// have no sample.
     fn sample(&self, places: &[[f64; 2]]) -> (Vec<f64>, usize) {
         let n = self.pixels as i64;
-        let mut sums = vec![[0.0, 0.0]; self.pixels * self.pixels];
+        /// What the weights of a pixel must sum to at least; of even samples it is 1.
+        const LEAST: f64 = 0.1;
+        let mut sums = vec![[[0.0, 0.0]; 2]; self.pixels * self.pixels];
         let reach = self.filter.radius();
         for &[x, y] in places {
             let value = (self.chirp * (x * x + y * y)).sin();
@@ -131,16 +134,20 @@ impl Plate {
                 let of_row = self.filter.weight(row as f64 + 0.5 - y);
                 for column in near(x) {
                     let weight = of_row * self.filter.weight(column as f64 + 0.5 - x);
-                    let [sum, weights] = &mut sums[(column + (n - 1 - row) * n) as usize];
-                    *sum += weight * value;
-                    *weights += weight;
+                    for ([sum, weights], weight) in sums[(column + (n - 1 - row) * n) as usize].iter_mut().zip([weight, weight.max(0.0)]) {
+                        *sum += weight * value;
+                        *weights += weight;
+                    }
                 }
             }
         }
-        // What hardly outweighs the negative lobes is no mean.
-        let is_empty = |weights: f64| weights < 0.1;
-        let n_empty = sums.iter().filter(|[_, weights]| is_empty(*weights)).count();
-        (sums.into_iter().map(|[sum, weights]| if is_empty(weights) { 0.0 } else { sum / weights }).collect(), n_empty)
+        let n_empty = sums.iter().filter(|[_, [_, weights]]| *weights == 0.0).count();
+        let mean = |[[sum, weights], [positive, of_positive]]: [[f64; 2]; 2]| match () {
+            () if weights >= LEAST => sum / weights,
+            () if of_positive > 0.0 => positive / of_positive,
+            () => 0.0,
+        };
+        (sums.into_iter().map(mean).collect(), n_empty)
     }
 
     /// The wave through the filter: sin(x^2 + y^2) = sin x^2 cos y^2 + cos x^2 sin y^2, each factor along its axis.

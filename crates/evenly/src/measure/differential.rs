@@ -4,6 +4,9 @@
 //! "Differential Domain Analysis for Non-uniform Sampling", ACM Transactions on Graphics 30(4), 2011, doi 10.1145/2010324.1964945. What differs: lengths alone are
 //! scaled, the same in all directions, and the spectrum is that of the scaled pair correlation, so that uniform and other sets can be compared.
 
+use std::f64::consts::PI;
+
+use glam::DVec2;
 use rayon::prelude::*;
 
 use super::correlation::correlate;
@@ -46,45 +49,51 @@ pub fn differential_spectrum(points: &PointSet, spacings: &[f64]) -> Result<Radi
     let (_, &mut median, _) = rooms.select_nth_unstable_by(middle, f64::total_cmp);
     let n_bins = n_bins(REACH[0].min(median))?;
     let mut correlation = correlate(points, n_bins, &|index| spacings[index] * scale)?;
-    level(&mut correlation);
+    level(&mut correlation)?;
     Ok(RadialSpectrum::of(1, correlation))
 }
 
 /// Brings the mean over far pairs to 1: spacings that are all a little wrong would else look like a long wave.
-fn level(correlation: &mut [f64]) {
+fn level(correlation: &mut [f64]) -> Result<(), Error> {
     let far = correlation.len() / 2;
     let weighted = |values: &mut dyn Iterator<Item = (usize, f64)>| values.map(|(bin, value)| (bin as f64 + 0.5) * value).sum::<f64>();
     let sum = weighted(&mut correlation.iter().copied().enumerate().skip(far));
     let expected = weighted(&mut (far..correlation.len()).map(|bin| (bin, 1.0)));
+    if sum == 0.0 {
+        return Err(Error::Degenerate("no two points are some spacings apart; are the spacings right?".into()));
+    }
     correlation.iter_mut().for_each(|g| *g *= expected / sum);
+    Ok(())
 }
 
 /// A guess at each point's own spacing, 1 / sqrt(density), in input units: from the disk with 64 neighbours, or, of few points, half of them. It is good to a hundredth
 /// where the density is even over so many, and too large at a rectangle's border.
 ///
 /// # Errors
-/// [`Error::Degenerate`] for fewer than three points, or so many in one place that they have no distance.
+/// [`Error::Degenerate`] for fewer than three points, a torus too narrow for them, or so many in one place that they have no distance.
 pub fn local_spacings(points: &PointSet) -> Result<Vec<f64>, Error> {
     const NEIGHBOURS: usize = 64;
     let (domain, positions) = points.normalized();
     if positions.len() < 3 {
         return Err(Error::Degenerate("a spacing takes three points or more".into()));
     }
-    let rank = NEIGHBOURS.min(positions.len() / 2);
+    // A torus shows no farther than half its shorter side: half the points of that disk are there even where they are sparse.
+    let seen = if domain.is_periodic { 0.25 * PI * domain.size.min_element().powi(2) / domain.area() } else { 1.0 };
+    let rank = NEIGHBOURS.min((0.5 * seen * positions.len() as f64) as usize);
     let rows = Rows::new(&domain, &positions, 4.0);
-    let distances: Vec<f64> = positions.par_iter().map(|&p| rows.distance_to_nearest(p, rank)).collect();
-    if distances.contains(&0.0) {
-        return Err(Error::Degenerate(format!("more than {rank} points share a place: there is no local spacing")));
-    }
-    let scale = (std::f64::consts::PI / rank as f64).sqrt();
-    Ok(distances.iter().map(|distance| domain.restore_length(scale * distance)).collect())
+    let spacing = |&place: &DVec2| match rows.distance_to_nearest(place, rank) {
+        Some(distance) if distance > 0.0 && rank > 0 => Ok(domain.restore_length((PI / rank as f64).sqrt() * distance)),
+        Some(_) => Err(Error::Degenerate(format!("more than {rank} points share a place: there is no local spacing"))),
+        None => Err(Error::Degenerate("too few points around some, or too narrow a domain, for a local spacing".into())),
+    };
+    positions.par_iter().map(spacing).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::points::Random;
-    use crate::{Rectangle, Torus, radial_spectrum, white};
+    use crate::{Rectangle, Torus, poisson_disk_of, radial_spectrum, white};
 
     /// The spacing wanted at a place: three times as large at one side as at the other.
     fn wanted(p: [f64; 2]) -> f64 {
@@ -142,10 +151,15 @@ mod tests {
     #[test]
     fn wrong_spacings_are_errors() {
         let noise = white(Torus::new([0.0, 0.0], [1.0, 1.0]).unwrap(), 1000, 3).unwrap();
-        for spacings in [vec![], vec![0.1; 999], vec![0.0; 1000], vec![f64::NAN; 1000], vec![1.0; 1000]] {
+        for spacings in [vec![], vec![0.1; 999], vec![0.0; 1000], vec![f64::NAN; 1000], vec![1.0; 1000], vec![1e-6; 1000]] {
             assert!(differential_spectrum(&noise, &spacings).is_err());
         }
         let heap = PointSet::new(*noise.space(), vec![[0.5, 0.5]; 1000]).unwrap();
         assert!(local_spacings(&heap).is_err() && local_spacings(&white(*noise.space(), 2, 0).unwrap()).is_err());
+        // In a strip of four spacings the disk around a point holds a dozen others: fewer neighbours, and the same spacing.
+        let strip = poisson_disk_of(Torus::new([0.0, 0.0], [100.0, 1.0]).unwrap(), 2000, 1).unwrap();
+        let mean = local_spacings(&strip).unwrap().iter().sum::<f64>() / 2000.0;
+        assert!((mean / 0.05f64.sqrt() - 1.0).abs() < 0.1, "{mean}");
+        assert!(local_spacings(&white(Torus::new([0.0, 0.0], [1e4, 1.0]).unwrap(), 1000, 1).unwrap()).is_err());
     }
 }

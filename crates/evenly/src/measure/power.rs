@@ -11,6 +11,7 @@
 mod direct;
 mod gridding;
 mod rings;
+mod waves;
 
 use serde::Serialize;
 
@@ -18,6 +19,7 @@ use super::sets::{mean_spacing, require_alike};
 use crate::error::Error;
 use crate::points::PointSet;
 use rings::Rings;
+use waves::{Waves, by_short_side};
 
 /// What [`power_spectrum`] finds. A name of JSON is that of its field.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -31,7 +33,7 @@ pub struct PowerSpectrum {
     /// The mean power of each ring.
     pub ring_power: Vec<f64>,
     /// Each ring's anisotropy (Ulichney 1987), the variance of the power by the square of its mean, in decibels; what depends on no direction has
-    /// -10 log10 of the number of sets. NaN where there is no power.
+    /// -10 log10 of the number of sets. NaN where there is no power, or no difference.
     pub anisotropy_db: Vec<f64>,
     /// The lattice's steps, in inverse mean spacings, and the largest [a, b].
     #[serde(skip)]
@@ -44,6 +46,9 @@ pub struct PowerSpectrum {
 }
 
 impl PowerSpectrum {
+    /// Up to this frequency there is all that blue noise has to show, in inverse mean spacings.
+    pub const MAX_FREQUENCY: f64 = 4.0;
+
     /// The largest `[a, b]` of the lattice of frequencies `(a / width, b / height)`.
     pub fn half_size(&self) -> [usize; 2] {
         self.half
@@ -52,11 +57,13 @@ impl PowerSpectrum {
     /// The power at the frequency `(a / width, b / height)`; `None` outside the lattice.
     pub fn power(&self, a: i64, b: i64) -> Option<f64> {
         let [a, b] = by_short_side(self.half, [a, b]);
+        let [a_max, b_max] = by_short_side(self.half, self.half).map(|half| half as i64);
+        if a.unsigned_abs() > a_max as u64 || b.unsigned_abs() > b_max as u64 {
+            return None;
+        }
         // The spectrum of what is real is the same from both sides.
         let (a, b) = if a < 0 { (-a, -b) } else { (a, b) };
-        let [a_max, b_max] = by_short_side(self.half, self.half).map(|half| half as i64);
-        let is_known = a <= a_max && b.abs() <= b_max;
-        is_known.then(|| self.power[(a * (2 * b_max + 1) + b + b_max) as usize])
+        Some(self.power[(a * (2 * b_max + 1) + b + b_max) as usize])
     }
 
     /// The steps of the lattice, in inverse mean spacings: `(a, b)` is the frequency `(a, b) * step`.
@@ -65,18 +72,13 @@ impl PowerSpectrum {
     }
 }
 
-/// A pair with what belongs to the domain's shorter side first, which has the fewer frequencies.
-fn by_short_side<T>(half: [usize; 2], [x, y]: [T; 2]) -> [T; 2] {
-    if half[0] <= half[1] { [x, y] } else { [y, x] }
-}
-
 /// Up to here waves are summed point by point.
 const MOST_DIRECT: usize = 20_000;
 /// The most frequencies of half the plane: half a gigabyte.
 const MOST_FREQUENCIES: f64 = (1u64 << 26) as f64;
 
-/// The mean power spectrum of sets on the same domain, for frequencies up to `max_frequency` inverse mean spacings in each direction; 4 shows all that
-/// blue noise has to show. Of many millions of points fewer are looked at, as the result says.
+/// The mean power spectrum of sets on the same domain, for frequencies up to `max_frequency` inverse mean spacings in each direction; see [`PowerSpectrum::MAX_FREQUENCY`].
+/// Of many millions of points fewer are looked at, as the result says.
 ///
 /// # Errors
 /// [`Error::Degenerate`] for no sets, an empty one, and sets of different domains, or with numbers of points more than a tenth apart, which have no
@@ -118,42 +120,6 @@ pub fn power_spectrum(sets: &[PointSet], max_frequency: f64) -> Result<PowerSpec
     let Rings { frequencies, power: ring_power, anisotropy_db } =
         rings::of(&power, by_short_side(half, half), by_short_side(half, step), max_frequency);
     Ok(PowerSpectrum { n_sets: sets.len(), max_frequency, ring_frequencies: frequencies, ring_power, anisotropy_db, step, half, power })
-}
-
-/// One set, ready to be summed to waves; x is along the domain's shorter side.
-struct Waves {
-    /// Places in the domain as shares of its sides, in [0, 1].
-    x: Vec<f64>,
-    y: Vec<f64>,
-    /// What each point counts: 1 on a torus, less near a rectangle's border.
-    weight: Vec<f64>,
-    half: [usize; 2],
-    has_window: bool,
-}
-
-impl Waves {
-    /// `half` is that of the domain's sides.
-    fn new(points: &PointSet, half: [usize; 2]) -> Self {
-        let (domain, positions) = points.normalized();
-        let has_window = !domain.is_periodic;
-        let share = |axis: usize| positions.iter().map(|p| p[axis] / domain.size[axis]).collect();
-        let [x, y]: [Vec<f64>; 2] = by_short_side(half, [share(0), share(1)]);
-        let window = |t: f64| (std::f64::consts::PI * t).sin().powi(2);
-        let weight = x.iter().zip(&y).map(|(&x, &y)| if has_window { window(x) * window(y) } else { 1.0 }).collect();
-        Self { x, y, weight, half: by_short_side(half, half), has_window }
-    }
-
-    /// What white noise has, on average: n times the mean square of the window.
-    fn white_power(&self) -> f64 {
-        let share = if self.has_window { (3.0f64 / 8.0).powi(2) } else { 1.0 };
-        share * self.x.len() as f64
-    }
-
-    /// What the mean density alone would sum to, seen through the window; real. On a torus nothing is taken off: the power at 0 is n.
-    fn of_density(&self, a: usize, b: i64) -> f64 {
-        let wave = |k: u64| [0.5, -0.25].get(k as usize).copied().unwrap_or(0.0);
-        if self.has_window { self.x.len() as f64 * wave(a as u64) * wave(b.unsigned_abs()) } else { 0.0 }
-    }
 }
 
 #[cfg(test)]

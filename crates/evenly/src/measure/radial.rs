@@ -6,7 +6,7 @@
 //! maximal Poisson-disk sets do at their radius, how the integrals are summed shows in the second digit of what is derived. They are summed here so that psa's
 //! own figures come out: bins of 1 / 200, each taken where it begins; powers in the disk taken at the ends of their steps.
 //!
-//! Lengths are in mean spacings, sqrt(A / n), frequencies in their inverse. Cost: O(n) with some 1000 distances a point.
+//! Lengths are in mean spacings, sqrt(A / n), frequencies in their inverse. Cost: some 1000 distances a point where they are even; as many as there are points within reach where they are heaped.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -97,7 +97,7 @@ fn reach(points: &PointSet) -> f64 {
 /// So many bins reach that far, in mean spacings.
 pub(super) fn n_bins(reach: f64) -> Result<usize, Error> {
     if reach < 2.0 {
-        let few = "too few points, or too narrow a domain, for a spectrum: it takes some 100 points in a square";
+        let few = "too few points, or too narrow a domain, for a spectrum: it takes 16 points on a square torus, 64 in a square";
         return Err(Error::Degenerate(few.into()));
     }
     Ok((reach * BINS as f64) as usize)

@@ -66,8 +66,8 @@ impl Rows {
         }
     }
 
-    /// The distance from a point to the `rank`-th nearest other, as far as half a torus' shorter side.
-    pub fn distance_to_nearest(&self, place: DVec2, rank: usize) -> f64 {
+    /// The distance from a point to the `rank`-th nearest other; `None` where that is beyond half a torus' shorter side.
+    pub fn distance_to_nearest(&self, place: DVec2, rank: usize) -> Option<f64> {
         let most = if self.domain.is_periodic { 0.5 * self.domain.size.min_element() } else { self.domain.size.length() };
         let mut reach = (rank as f64 * self.domain.area() / self.places.len() as f64).sqrt().min(most);
         let mut found = Vec::new();
@@ -79,10 +79,10 @@ impl Rows {
             });
             // It finds itself too.
             if found.len() > rank {
-                return *found.select_nth_unstable_by(rank, f64::total_cmp).1;
+                return Some(*found.select_nth_unstable_by(rank, f64::total_cmp).1);
             }
             if reach == most {
-                return most;
+                return None;
             }
             reach = (2.0 * reach).min(most);
         }

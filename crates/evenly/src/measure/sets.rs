@@ -13,18 +13,18 @@ pub(super) fn mean_spacing(points: &PointSet) -> f64 {
 pub(super) fn require_alike(sets: &[PointSet]) -> Result<(), Error> {
     /// Sets whose number is a matter of chance differ by a hundredth or two.
     const MOST_APART: f64 = 1.1;
-    let Some(first) = sets.first() else { return Err(Error::Degenerate("there are no sets of points".into())) };
-    for points in sets {
-        let (n, m) = (points.n_points() as f64, first.n_points() as f64);
-        if points.n_points() == 0 {
-            return Err(Error::Degenerate("there are no points".into()));
-        }
-        if points.space() != first.space() {
-            return Err(Error::Degenerate(format!("sets on {} and on {} have no mean spectrum", first.space(), points.space())));
-        }
-        if n > MOST_APART * m || m > MOST_APART * n {
-            return Err(Error::Degenerate(format!("sets of {m} and of {n} points have no mean spectrum: look at each by itself")));
-        }
+    let refuse = |why: String| Err(Error::Degenerate(why));
+    let Some(first) = sets.first() else { return refuse("there are no sets of points".into()) };
+    if let Some(other) = sets.iter().find(|points| points.space() != first.space()) {
+        return refuse(format!("sets on {} and on {} have no mean spectrum", first.space(), other.space()));
+    }
+    let counts = || sets.iter().map(PointSet::n_points);
+    let (least, most) = (counts().min().unwrap_or_default(), counts().max().unwrap_or_default());
+    if least == 0 {
+        return refuse("there are no points".into());
+    }
+    if most as f64 > MOST_APART * least as f64 {
+        return refuse(format!("sets of {least} and of {most} points have no mean spectrum: look at each by itself"));
     }
     Ok(())
 }

@@ -6,7 +6,7 @@
 use ndarray::{Array2, Axis, linalg::general_mat_mul};
 use rayon::prelude::*;
 
-use super::Waves;
+use super::waves::Waves;
 
 /// Frequencies along each axis, and points, in one product: as much as lies in a cache.
 const ROWS: usize = 64;

@@ -11,7 +11,7 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 use rustfft::FftPlanner;
 
-use super::Waves;
+use super::waves::Waves;
 
 /// Cells under a kernel.
 const WIDTH: usize = 14;

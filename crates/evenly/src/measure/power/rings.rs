@@ -32,7 +32,9 @@ pub(super) fn of(power: &[f64], half: [usize; 2], step: [f64; 2], max_frequency:
     let anisotropy = |&[n, sum, squares]: &[f64; 3]| {
         let mean = sum / n;
         let variance = (squares - n * mean * mean).max(0.0) / (n - 1.0);
-        if mean > 0.0 { 10.0 * (variance / (mean * mean)).log10() } else { f64::NAN }
+        // What is left of no power, or of no difference, is rounding.
+        let is_known = n > 1.0 && mean > 1e-9 && variance > 1e-18 * mean * mean;
+        if is_known { 10.0 * (variance / (mean * mean)).log10() } else { f64::NAN }
     };
     Rings {
         frequencies: rings().map(|(ring, _)| ring as f64 * width).collect(),

@@ -1,5 +1,6 @@
 //! Laws of power spectra.
 
+use super::waves::Waves;
 use super::*;
 use crate::{Rectangle, Torus, hexagonal, jittered, poisson_disk_of, white};
 
