@@ -7,7 +7,7 @@ usage: cargo xtask CHORE
   test           all tests: units, laws, numbers, the command line, the examples in the documentation
   bench [quick] [procrustes | push-pull | starts | comparators | spectrum]
                  the table of speed and quality, measured on this machine
-  gallery        draws the pictures of the README, and the pages of docs/, anew: some ten minutes";
+  gallery        draws the pictures of the README, and the pages of docs/, anew: some five minutes";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
