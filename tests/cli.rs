@@ -293,7 +293,7 @@ fn bad_input_gets_one_line_and_no_file() {
         ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .svg .png .pdf"),
         ("generate -n 10 -o o", "o: no ending"),
         ("generate -n 10 -o folder", "folder: "),
-        ("generate -n 10 -o nowhere/o.txt", "nowhere/o.txt: entity not found"),
+        ("generate -n 10 -o nowhere/o.txt", "nowhere/o.txt: its folder does not exist"),
         ("generate -n 10 -o o.txt --draw points", "--draw needs a figure"),
         ("generate -n 10 -o - --json", "cannot both go to stdout"),
         ("generate -n 10 -o o.txt --report o.txt", "cannot go to the same file"),

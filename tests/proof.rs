@@ -119,7 +119,7 @@ fn a_report_is_a_page_of_every_figure() {
     shell.ok("generate -n 9 -q -o few.txt");
     assert!(shell.refused("analyze few.txt --plot few.svg --draw radial").contains("too few points"));
     assert!(!shell.path("few.svg").exists());
-    assert!(shell.refused("analyze few.txt --plot few.npy").contains(".svg, .png or .pdf"));
+    assert!(shell.refused("analyze few.txt --plot few.npy").contains("use one of .svg .png .pdf"));
 }
 
 #[test]
@@ -161,11 +161,14 @@ fn a_bilateral_filter_needs_few_samples_and_any_picture() {
         serde_json::from_str(&shell.ok("bilateral few.png --samples even.txt --json -j 1 --kernel 8 --count 10 --range 0.5")).unwrap();
     assert!(again["rmse"].as_f64().unwrap() < 0.1 && shell.path("all.png").exists());
     shell.write("broken.png", "\u{89}PNG and no more");
+    shell.write("cut.jpg", b"\xff\xd8\xff\xe0\xff\xd9\xff\xda and the scan ends");
     for (flags, reason) in [
         ("broken.png --samples even.txt", "broken.png: not a readable PNG or JPEG"),
+        ("cut.jpg --samples even.txt", "not a whole JPEG"),
+        ("small.png --samples even.txt --range -1", "--range is -1"),
         ("no.png --samples even.txt", "no.png: No such file"),
         ("even.txt --samples even.txt", "even.txt: not a readable PNG or JPEG"),
-        ("small.png --samples even.txt --kernel 0", "kernel_px is 0"),
+        ("small.png --samples even.txt --kernel 0", "--kernel is 0"),
         ("small.png --samples even.txt --range 1e-200", "a millionth at least"),
         ("small.png --samples even.txt -o new.png --full ./new.png", "the same file"),
         ("- --samples -", "read once"),

@@ -1,8 +1,11 @@
 //! What was measured, for people and as JSON: the same names in both.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 
+use anyhow::anyhow;
+use evenly::Error;
 use evenly_io::{Format, Target};
 use serde_json::Value;
 
@@ -11,6 +14,17 @@ pub fn print(json: &Value, is_json: bool, table: impl FnOnce() -> String) -> any
     let text = if is_json { serde_json::to_string_pretty(json)? + "\n" } else { table() };
     Target::new("-".as_ref(), Some(Format::Txt), false)?.write(text.as_bytes())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The same error, with the name that the user knows: of the flag, by pairs of a parameter and its flag, or of the file.
+pub fn told(error: Error, file: &Path, flags: &[(&str, &str)]) -> anyhow::Error {
+    match error {
+        Error::InvalidParameter { name, value, expected } => {
+            let flag = flags.iter().find(|(parameter, _)| *parameter == name).map_or(name, |(_, flag)| flag);
+            anyhow!("--{flag} is {value}; it must be {expected}")
+        }
+        other => anyhow::Error::from(other).context(file.display().to_string()),
+    }
 }
 
 /// A line a field.

@@ -39,10 +39,10 @@ pub struct Zoneplate {
     #[command(flatten)]
     pub space: SpaceArgs,
     /// Pixels a side, 16 to 4096
-    #[arg(long, value_name = "N", default_value_t = 512)]
+    #[arg(long, value_name = "N", default_value_t = 512, allow_negative_numbers = true)]
     pub pixels: usize,
     /// The wave's frequency at the right side, in waves a pixel: above 0, at most 8
-    #[arg(long, value_name = "F", default_value_t = 1.5)]
+    #[arg(long, value_name = "F", default_value_t = 1.5, allow_negative_numbers = true)]
     pub frequency: f64,
     /// What makes pixels of samples
     #[arg(long, value_enum, default_value = "mitchell")]
@@ -57,7 +57,7 @@ pub struct Zoneplate {
 #[derive(Args)]
 #[command(after_help = "Example:\n  evenly bilateral photo.png --samples points.txt -o filtered.png")]
 pub struct Bilateral {
-    /// A picture, .png or .jpg; - is stdin
+    /// A picture, .png or .jpg; - is stdin. What is transparent lies on white
     pub input: PathBuf,
     /// Points as .txt, .csv or .npy: where the picture is looked at. A torus is repeated, a rectangle must have enough
     #[arg(long, value_name = "FILE")]
@@ -65,13 +65,13 @@ pub struct Bilateral {
     #[command(flatten)]
     pub space: SpaceArgs,
     /// The kernel's width, in pixels: 2 to 1000
-    #[arg(long, value_name = "PX", default_value_t = 40.0)]
+    #[arg(long, value_name = "PX", default_value_t = 40.0, allow_negative_numbers = true)]
     pub kernel: f64,
     /// Samples in a kernel, on average
-    #[arg(long, value_name = "K", default_value_t = 30.0)]
+    #[arg(long, value_name = "K", default_value_t = 30.0, allow_negative_numbers = true)]
     pub count: f64,
     /// How different intensities may be and still be mixed, as a standard deviation; white is 1
-    #[arg(long, value_name = "R", default_value_t = 0.1)]
+    #[arg(long, value_name = "R", default_value_t = 0.1, allow_negative_numbers = true)]
     pub range: f64,
     /// The filtered picture, as .png
     #[arg(short, long, value_name = "OUT")]

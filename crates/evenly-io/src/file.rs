@@ -67,9 +67,21 @@ impl Target {
     /// # Errors
     /// As [`Self::new`], and an ending that is not `.png`.
     pub fn picture(path: &Path, may_overwrite: bool) -> Result<Self, Error> {
-        match Self::new(path, None, may_overwrite)? {
-            target if target.format == Format::Png => Ok(target),
-            target => Err(Error::Format { name: target.name(), problem: "a picture has pixels", choices: ".png".into() }),
+        Self::of_kind(path, may_overwrite, "a picture has pixels", |format| format == Format::Png)
+    }
+
+    /// A figure.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and an ending of points.
+    pub fn figure(path: &Path, may_overwrite: bool) -> Result<Self, Error> {
+        Self::of_kind(path, may_overwrite, "no format of figures", |format| !format.holds_points())
+    }
+
+    fn of_kind(path: &Path, may_overwrite: bool, problem: &'static str, is_good: impl Fn(Format) -> bool) -> Result<Self, Error> {
+        match Format::of_path(path) {
+            Ok(format) if is_good(format) => Self::new(path, None, may_overwrite),
+            _ => Err(Error::Format { name: path.display().to_string(), problem, choices: Format::endings(is_good) }),
         }
     }
 
@@ -133,8 +145,11 @@ impl Target {
         builder.prefix(".evenly-");
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        // The reason alone: the temporary file's own name says nothing to anybody.
-        builder.tempfile_in(folder).map_err(|e| Error::io(&self.name())(e.kind().into()))
+        builder.tempfile_in(folder).map_err(|e| match e.kind() {
+            std::io::ErrorKind::NotFound => Error::content(self.name(), "its folder does not exist"),
+            // The reason alone: the temporary file's own name says nothing to anybody.
+            kind => Error::io(&self.name())(kind.into()),
+        })
     }
 
     /// Writes everything: to a temporary file that then takes the target's name, or to stdout.
@@ -167,6 +182,9 @@ impl Target {
 /// # Errors
 /// What the operating system says.
 pub fn make_folder(path: &Path) -> Result<(), Error> {
+    if path.exists() && !path.is_dir() {
+        return Err(Error::content(path.display().to_string(), "this is a file; name a folder"));
+    }
     std::fs::create_dir_all(path).map_err(Error::io(&path.display().to_string()))
 }
 

@@ -17,6 +17,9 @@ use crate::{Error, Target};
 pub fn read_image(path: &Path) -> Result<Image, Error> {
     let (name, bytes) = read_bytes(path)?;
     let unreadable = |e: image::ImageError| Error::content(&name, format!("not a readable PNG or JPEG ({e})"));
+    if bytes.starts_with(b"\xff\xd8") && !is_whole_jpeg(&bytes) {
+        return Err(Error::content(&name, "not a whole JPEG: its end is missing"));
+    }
     let mut reader = ImageReader::new(Cursor::new(&bytes));
     reader.no_limits();
     let mut decoder = reader.with_guessed_format().map_err(|e| unreadable(e.into()))?.into_decoder().map_err(unreadable)?;
@@ -32,6 +35,12 @@ pub fn read_image(path: &Path) -> Result<Image, Error> {
     let (width, height) = (picture.width(), picture.height());
     let (n_channels, values) = values(picture);
     Image::new(width as usize, height as usize, n_channels, values).map_err(|e| Error::content(&name, e.to_string()))
+}
+
+/// Whether the end is marked after the last scan: decoders make grey of what is missing. Neither mark is found in a scan.
+fn is_whole_jpeg(bytes: &[u8]) -> bool {
+    let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
+    last([0xff, 0xd9]) > last([0xff, 0xda])
 }
 
 /// One number or three a pixel.

@@ -16,13 +16,7 @@ use crate::{input, record, session};
 
 pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
-    let plot = match &args.plot {
-        Some(path) => Some(Target::new(path, None, args.measured.force)?),
-        None => None,
-    };
-    if let Some(plot) = plot.as_ref().filter(|plot| plot.format().holds_points()) {
-        bail!("{}: a figure is .svg, .png or .pdf", plot.name());
-    }
+    let plot = args.plot.as_ref().map(|path| Target::figure(path, args.measured.force)).transpose()?;
     if args.local && args.inputs.len() > 1 {
         bail!("--local is for one set");
     }

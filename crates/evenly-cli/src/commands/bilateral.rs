@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
 use evenly::{BilateralParams, bilateral, subsampled_bilateral};
 use evenly_io::{Target, read_image, write_image};
 
@@ -21,7 +21,8 @@ pub fn run(args: &Bilateral) -> anyhow::Result<ExitCode> {
     let samples = input::read_and_tell(&args.samples, args.space.space()?)?;
     let params = BilateralParams { kernel_px: args.kernel, range: args.range, n_samples: args.count };
     let pool = session::pool(args.measured.threads)?;
-    let few = pool.install(|| subsampled_bilateral(&image, &samples, &params)).with_context(|| args.samples.display().to_string())?;
+    let told = |e| measured::told(e, &args.samples, &[("kernel_px", "kernel"), ("n_samples", "count")]);
+    let few = pool.install(|| subsampled_bilateral(&image, &samples, &params)).map_err(told)?;
     let all = pool.install(|| bilateral(&image, &params))?;
     for (image, target) in [(&few, &output), (&all, &full)] {
         if let Some(target) = target {

@@ -2,7 +2,6 @@
 
 use std::process::ExitCode;
 
-use anyhow::Context as _;
 use evenly::{ZonePlateParams, zone_plate};
 use evenly_io::{Target, write_image};
 
@@ -14,7 +13,8 @@ pub fn run(args: &Zoneplate) -> anyhow::Result<ExitCode> {
     let points = input::read_and_tell(&args.input, args.space.space()?)?;
     let params = ZonePlateParams { pixels: args.pixels, max_frequency: args.frequency, filter: args.filter.into() };
     let pool = session::pool(args.measured.threads)?;
-    let plate = pool.install(|| zone_plate(&points, &params)).with_context(|| args.input.display().to_string())?;
+    let plate =
+        pool.install(|| zone_plate(&points, &params)).map_err(|e| measured::told(e, &args.input, &[("max_frequency", "frequency")]))?;
     if let Some(output) = &output {
         write_image(&plate.image, &record::recipe(None), output)?;
     }

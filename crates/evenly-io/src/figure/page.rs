@@ -148,7 +148,10 @@ impl Page {
     fn map(&mut self, subject: &Subject, layers: &[Draw], most: usize) -> Result<(), Error> {
         let points = subject.first()?;
         let (body, size) = map(points, layers, most, &self.tessellated)?;
-        let title = layers.iter().map(|&layer| layer.title()).collect::<Vec<_>>().join(", ");
+        let mut title = layers.iter().map(|&layer| layer.title()).collect::<Vec<_>>().join(", ");
+        if subject.sets.len() > 1 {
+            title += " (the first set)";
+        }
         let meaning: String = layers.iter().map(|&layer| layer.caption()).collect();
         let caption = match (points.n_points() > most, meaning.is_empty()) {
             (true, true) => format!("a corner with some {most} of them"),

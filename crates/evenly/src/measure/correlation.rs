@@ -50,3 +50,16 @@ pub(super) fn correlate(points: &PointSet, n_bins: usize, spacing: &(impl Fn(usi
     let ring = |bin: usize| std::f64::consts::PI * (2.0 * bin as f64 + 1.0) / (BINS * BINS) as f64 * (1.0 - 1.0 / n_points as f64);
     Ok(counts.iter().enumerate().map(|(bin, &n)| n as f64 / (centres.len() as f64 * ring(bin))).collect())
 }
+
+/// Brings the mean over far pairs to 1: a density that is a little wrong would else look like a long wave.
+pub(super) fn level(correlation: &mut [f64]) -> Result<(), Error> {
+    let far = correlation.len() / 2;
+    let weighted = |values: &mut dyn Iterator<Item = (usize, f64)>| values.map(|(bin, value)| (bin as f64 + 0.5) * value).sum::<f64>();
+    let sum = weighted(&mut correlation.iter().copied().enumerate().skip(far));
+    let expected = weighted(&mut (far..correlation.len()).map(|bin| (bin, 1.0)));
+    if sum == 0.0 {
+        return Err(Error::Degenerate("no two points are some spacings apart; are the spacings right?".into()));
+    }
+    correlation.iter_mut().for_each(|g| *g *= expected / sum);
+    Ok(())
+}

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::correlation::correlate;
+use super::correlation::{correlate, level};
 use super::radial::{REACH, RadialSpectrum, n_bins};
 use super::rows::Rows;
 use super::sets::require_alike;
@@ -53,21 +53,8 @@ pub fn differential_spectrum(points: &PointSet, spacings: &[f64]) -> Result<Radi
     Ok(RadialSpectrum::of(1, correlation))
 }
 
-/// Brings the mean over far pairs to 1: spacings that are all a little wrong would else look like a long wave.
-fn level(correlation: &mut [f64]) -> Result<(), Error> {
-    let far = correlation.len() / 2;
-    let weighted = |values: &mut dyn Iterator<Item = (usize, f64)>| values.map(|(bin, value)| (bin as f64 + 0.5) * value).sum::<f64>();
-    let sum = weighted(&mut correlation.iter().copied().enumerate().skip(far));
-    let expected = weighted(&mut (far..correlation.len()).map(|bin| (bin, 1.0)));
-    if sum == 0.0 {
-        return Err(Error::Degenerate("no two points are some spacings apart; are the spacings right?".into()));
-    }
-    correlation.iter_mut().for_each(|g| *g *= expected / sum);
-    Ok(())
-}
-
-/// A guess at each point's own spacing, 1 / sqrt(density), in input units: from the disk with 64 neighbours, or, of few points, half of them. It is good to a hundredth
-/// where the density is even over so many, and too large at a rectangle's border.
+/// A guess at each point's own spacing, 1 / sqrt(density), in input units: from the disks with 32 to 64 neighbours, or, of few points, up to half of them. It is good to some
+/// hundredths where the density is even over so many, and too large at a rectangle's border.
 ///
 /// # Errors
 /// [`Error::Degenerate`] for fewer than three points, a torus too narrow for them, or so many in one place that they have no distance.
@@ -81,8 +68,13 @@ pub fn local_spacings(points: &PointSet) -> Result<Vec<f64>, Error> {
     let seen = if domain.is_periodic { 0.25 * PI * domain.size.min_element().powi(2) / domain.area() } else { 1.0 };
     let rank = NEIGHBOURS.min((0.5 * seen * positions.len() as f64) as usize);
     let rows = Rows::new(&domain, &positions, 4.0);
-    let spacing = |&place: &DVec2| match rows.distance_to_nearest(place, rank) {
-        Some(distance) if distance > 0.0 && rank > 0 => Ok(domain.restore_length((PI / rank as f64).sqrt() * distance)),
+    // Of one neighbour alone the pair correlation would show a spike where that neighbour is.
+    let ranks = (rank / 2).max(1)..=rank;
+    let spacing = |&place: &DVec2| match rows.distances_to_nearest(place, rank) {
+        Some(distances) if distances.last().is_some_and(|&farthest| farthest > 0.0) => {
+            let area: f64 = ranks.clone().map(|k| PI * distances[k - 1].powi(2) / k as f64).sum();
+            Ok(domain.restore_length((area / ranks.clone().count() as f64).sqrt()))
+        }
         Some(_) => Err(Error::Degenerate(format!("more than {rank} points share a place: there is no local spacing"))),
         None => Err(Error::Degenerate("too few points around some, or too narrow a domain, for a local spacing".into())),
     };
@@ -146,6 +138,11 @@ mod tests {
         assert!(error < 0.1, "{error}");
         let mean = local_spacings(&noise).unwrap().iter().sum::<f64>() / 4000.0;
         assert!((mean / spacing - 1.0).abs() < 0.02);
+        // The neighbours by whom a spacing is guessed leave no spike.
+        let guessed = differential_spectrum(&noise, &local_spacings(&noise).unwrap()).unwrap();
+        let tenths: Vec<f64> =
+            guessed.pair_correlation[200..].chunks(20).map(|bins| bins.iter().sum::<f64>() / bins.len() as f64).collect();
+        assert!(tenths.iter().all(|g| (g - 1.0).abs() < 0.15), "{tenths:?}");
     }
 
     #[test]

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::bessel::Bessel;
-use super::correlation::{BINS, correlate};
+use super::correlation::{BINS, correlate, level};
 use super::sets::{mean_spacing, require_alike};
 use crate::error::Error;
 use crate::points::PointSet;
@@ -72,6 +72,10 @@ pub fn radial_spectrum(sets: &[PointSet]) -> Result<RadialSpectrum, Error> {
         for (mean, g) in correlation.iter_mut().zip(correlate(points, n_bins, &|_| spacing)?) {
             *mean += g / sets.len() as f64;
         }
+    }
+    // A rectangle's inside is a little less dense than all of it, where points stand on its border.
+    if !sets[0].space().is_periodic() {
+        level(&mut correlation)?;
     }
     Ok(RadialSpectrum::of(sets.len(), correlation))
 }

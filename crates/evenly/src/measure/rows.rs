@@ -66,10 +66,10 @@ impl Rows {
         }
     }
 
-    /// The distance from a point to the `rank`-th nearest other; `None` where that is beyond half a torus' shorter side.
-    pub fn distance_to_nearest(&self, place: DVec2, rank: usize) -> Option<f64> {
+    /// The distances from a point to its `n` nearest others, rising; `None` where they reach beyond half a torus' shorter side.
+    pub fn distances_to_nearest(&self, place: DVec2, n: usize) -> Option<Vec<f64>> {
         let most = if self.domain.is_periodic { 0.5 * self.domain.size.min_element() } else { self.domain.size.length() };
-        let mut reach = (rank as f64 * self.domain.area() / self.places.len() as f64).sqrt().min(most);
+        let mut reach = (n as f64 * self.domain.area() / self.places.len() as f64).sqrt().min(most);
         let mut found = Vec::new();
         loop {
             found.clear();
@@ -78,8 +78,9 @@ impl Rows {
                 found.extend(others.iter().map(|&other| (other - place).length()).filter(|&distance| distance <= reach));
             });
             // It finds itself too.
-            if found.len() > rank {
-                return Some(*found.select_nth_unstable_by(rank, f64::total_cmp).1);
+            if found.len() > n {
+                found.sort_unstable_by(f64::total_cmp);
+                return Some(found[1..=n].to_vec());
             }
             if reach == most {
                 return None;
