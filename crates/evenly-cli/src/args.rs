@@ -9,7 +9,7 @@ use evenly_io::Format;
 use crate::measuring_args::{Analyze, Bilateral, Reproduce, Zoneplate};
 use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
-use crate::shared_args::{DrawArg, SpaceArgs};
+use crate::shared_args::{DrawArg, LongArgs, SpaceArgs};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -128,15 +128,8 @@ pub struct Compare {
     /// Where the table goes: .md .csv (a line a run) .json (all of it) .html (with pictures) [default: stdout, as plain text]
     #[arg(short, long, value_name = "OUT", help_heading = "Output")]
     pub output: Option<PathBuf>,
-    /// Overwrite existing files
-    #[arg(long, help_heading = "Output")]
-    pub force: bool,
-    /// Threads; the result does not depend on them [default: all]
-    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Output")]
-    pub threads: Option<u16>,
-    /// Say nothing but errors
-    #[arg(short, long, help_heading = "Output")]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub run: LongArgs,
 }
 
 #[derive(Args)]

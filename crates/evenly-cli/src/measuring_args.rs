@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use evenly::ReconstructionFilter;
 
-use crate::shared_args::{DrawArg, SpaceArgs};
+use crate::shared_args::{DrawArg, LongArgs, SpaceArgs};
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
@@ -99,20 +99,6 @@ pub struct Reproduce {
     pub quick: bool,
     #[command(flatten)]
     pub run: LongArgs,
-}
-
-/// What long work takes besides.
-#[derive(Args)]
-pub struct LongArgs {
-    /// Overwrite existing files
-    #[arg(long)]
-    pub force: bool,
-    /// Threads; the result does not depend on them [default: all]
-    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
-    /// Say nothing but errors
-    #[arg(short, long)]
-    pub quiet: bool,
 }
 
 /// What verbs that measure take besides.

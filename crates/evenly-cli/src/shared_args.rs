@@ -17,6 +17,21 @@ pub struct SpaceArgs {
     pub origin: [f64; 2],
 }
 
+/// What long work takes besides.
+#[derive(Args)]
+#[command(next_help_heading = "Output")]
+pub struct LongArgs {
+    /// Overwrite existing files
+    #[arg(long)]
+    pub force: bool,
+    /// Threads; the result does not depend on them [default: all]
+    #[arg(short = 'j', long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub enum SpaceKind {
     /// Opposite sides are one

@@ -24,7 +24,7 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     refuse_others_flags(&methods, flags)?;
     let space = args.space.space()?;
     let output = match &args.output {
-        Some(path) => Some((Kind::of_path(path)?, Target::any(path, args.force)?)),
+        Some(path) => Some((Kind::of_path(path)?, Target::any(path, args.run.force)?)),
         None => None,
     };
     let given = match &args.input {
@@ -50,9 +50,9 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     }
     let start = args.start.unwrap_or(Method::White);
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.quiet)?;
+    interrupt::cancels(&cancel, args.run.quiet)?;
     let runner = Runner { args, space, n_points, start, given, cancel };
-    let pool = session::pool(args.threads)?;
+    let pool = session::pool(args.run.threads)?;
     let is_drawn = matches!(output, Some((Kind::Html, _)));
     let comparison = pool.install(|| runner.compare(&methods, is_drawn))?;
     if comparison.columns.is_empty() {
@@ -79,7 +79,7 @@ struct Runner<'a> {
 impl Runner<'_> {
     fn compare(&self, methods: &[Method], is_drawn: bool) -> anyhow::Result<Comparison> {
         let n_runs = methods.len() as u64 * u64::from(self.args.runs);
-        let bar = session::bar(self.args.quiet, n_runs, "{msg} [{bar:30}] {pos} of {len} runs");
+        let bar = session::bar(self.args.run.quiet, n_runs, "{msg} [{bar:30}] {pos} of {len} runs");
         let mut columns = Vec::new();
         for &method in methods.iter().take_while(|_| !self.cancel.is_cancelled()) {
             let mut column = Column { method: method.name(), runs: Vec::new(), picture: None };
