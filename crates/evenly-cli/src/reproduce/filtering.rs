@@ -28,7 +28,8 @@ fn image(side: usize, has_ripples: bool) -> anyhow::Result<Image> {
 /// The error of bilateral filtering by samples.
 pub fn table_2(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "The error of bilateral filtering by samples against the full filter, kernel 40 pixels wide, 30 samples in a kernel. The paper's two photographs are not to be had; ours are computed: edges and waves of all lengths, and fine ripples. Means over sets.",
+        "The error of bilateral filtering by samples against the full filter, kernel 40 pixels wide, 30 samples in a kernel. The paper's \
+         two photographs are not to be had; ours are computed: edges and waves of all lengths, and fine ripples. Means over sets.",
     );
     let recipes: [(Recipe, usize); 8] = [
         (Recipe::start("white noise", Method::White), 0),
@@ -66,7 +67,13 @@ pub fn table_2(lab: &Lab) -> anyhow::Result<Part> {
             table.row(name, &ours, printed.map_or(&[], |numbers| numbers));
         }
     }
-    part.remark("Where a kernel's samples come from is not said in the paper: here the set is laid over the picture. From white noise over maximal sets to Opt-beta the order is the paper's; farther down all are alike.");
-    part.remark("The tiling is no worse here, unlike in the paper: these pictures have no texture in step with it. Of four photographs that were tried, its RMSE was worse than that of white noise on one, and about that of well-spaced points on three.");
+    part.remark(
+        "Where a kernel's samples come from is not said in the paper: here the set is laid over the picture. From white noise over \
+         maximal sets to Opt-beta the order is the paper's; farther down all are alike.",
+    );
+    part.remark(
+        "The tiling is no worse here, unlike in the paper: these pictures have no texture in step with it. Of four photographs that were \
+         tried, its RMSE was worse than that of white noise on one, and about that of well-spaced points on three.",
+    );
     Ok(part)
 }

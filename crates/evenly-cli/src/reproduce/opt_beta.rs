@@ -16,8 +16,8 @@ use crate::method::Method;
 pub const STUDY: Study = Study {
     name: "opt-beta",
     title: "Opt-beta, reproduced",
-    citation: "Mohamed S. Ebeida, Muhammad A. Awad, Xiaoyin Ge, Ahmed H. Mahmoud, Scott A. Mitchell, Patrick M. Knupp and Li-Yi Wei, Improving Spatial Coverage while Preserving the Blue Noise of \
-               Point Sets, Computer-Aided Design 46, 2014.",
+    citation: "Mohamed S. Ebeida, Muhammad A. Awad, Xiaoyin Ge, Ahmed H. Mahmoud, Scott A. Mitchell, Patrick M. Knupp and Li-Yi Wei, \
+        Improving Spatial Coverage while Preserving the Blue Noise of Point Sets, Computer-Aided Design 46, 2014.",
     parts: &[
         ("Figure 2", figure_2),
         ("Figure 5", figure_5),
@@ -34,7 +34,8 @@ pub const STUDY: Study = Study {
 /// Of the sets that are shown. Opt-beta's steps get stuck at a single spot of some.
 const SEED: u64 = 1;
 
-const BELOW: &str = "Opt-beta's own steps go down to about 0.79 with 10,000 points, though of five sets that were tried one got stuck at 0.86 at a single spot; the rows of well-spaced points, evenly's way to low ratios, go on where they end.";
+const BELOW: &str = "Opt-beta's own steps go down to about 0.79 with 10,000 points, though of five sets that were tried one got stuck at \
+    0.86 at a single spot; the rows of well-spaced points, evenly's way to low ratios, go on where they end.";
 
 fn figure_2(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new("The ratio beta of coverage radius to smallest distance, by type of distribution.");
@@ -62,7 +63,10 @@ fn figure_2(lab: &Lab) -> anyhow::Result<Part> {
         let points = lab.run(&recipe, n, SEED)?.points;
         table.row(recipe.name, &[measure(&points)?.beta], &[printed]);
     }
-    part.remark("Delaunay refinement is not among evenly's methods. Without conflict disks the ratio has no bound: two points may be as near as they like.");
+    part.remark(
+        "Delaunay refinement is not among evenly's methods. Without conflict disks the ratio has no bound: two points may be as near as \
+         they like.",
+    );
     Ok(part)
 }
 
@@ -108,7 +112,8 @@ fn triangles(tessellation: &Tessellation, shortest: f64) -> [Vec<f64>; 3] {
 
 fn figure_5(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "How the quality of triangles is spread: angles, edge lengths, and circumradii by smallest distance, whose largest is beta. First by method, from the same maximal Poisson-disk sets; then of Opt-beta by its target.",
+        "How the quality of triangles is spread: angles, edge lengths, and circumradii by smallest distance, whose largest is beta. \
+         First by method, from the same maximal Poisson-disk sets; then of Opt-beta by its target.",
     );
     let n = lab.pick(1000, 10_000);
     let methods = [
@@ -175,7 +180,10 @@ fn figure_6(lab: &Lab) -> anyhow::Result<Part> {
     for (name, numbers) in &rows {
         table.row(*name, numbers, &[]);
     }
-    part.remark("The first sweep makes beta worse, here as in the paper's figure, and below 0.8 it oscillates. Where it stalls, dense and sparse patches are each well spaced by themselves: the local ratio knows no scale.");
+    part.remark(
+        "The first sweep makes beta worse, here as in the paper's figure, and below 0.8 it oscillates. Where it stalls, dense and sparse \
+         patches are each well spaced by themselves: the local ratio knows no scale.",
+    );
     Ok(part)
 }
 
@@ -197,7 +205,8 @@ fn shown(lab: &Lab) -> Vec<Recipe> {
 
 fn figure_7(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "The zone plate, sampled with about a point a pixel through a Gaussian 3 pixels wide: 350 pixels a side, as in the paper; a set of a fraction of the points is repeated.",
+        "The zone plate, sampled with about a point a pixel through a Gaussian 3 pixels wide: 350 pixels a side, as in the paper; a set \
+         of a fraction of the points is repeated.",
     );
     let n = lab.pick(2500, 30_625);
     let mut rows = Vec::new();
@@ -211,7 +220,10 @@ fn figure_7(lab: &Lab) -> anyhow::Result<Part> {
     for (name, numbers) in rows {
         table.row(name, &numbers, &[]);
     }
-    part.remark("As the paper says, of one method the smaller beta, the less noise and the more aliasing; not across methods: CVT has a larger beta than the well-spaced sets, and more aliasing, and well-spaced sets of 0.75 keep more randomness than Opt-beta's of 0.85.");
+    part.remark(
+        "As the paper says, of one method the smaller beta, the less noise and the more aliasing; not across methods: CVT has a larger \
+         beta than the well-spaced sets, and more aliasing, and well-spaced sets of 0.75 keep more randomness than Opt-beta's of 0.85.",
+    );
     part.remark(BELOW);
     Ok(part)
 }
@@ -235,7 +247,10 @@ fn figure_8(lab: &Lab) -> anyhow::Result<Part> {
     for (name, numbers) in rows {
         table.row(name, &numbers, &[]);
     }
-    part.remark("That only five, six and seven neighbours are left is certain below beta = 0.707; at 0.75, where the paper shows it, a few cells with four or eight remain in large sets.");
+    part.remark(
+        "That only five, six and seven neighbours are left is certain below beta = 0.707; at 0.75, where the paper shows it, a few cells \
+         with four or eight remain in large sets.",
+    );
     Ok(part)
 }
 
@@ -256,13 +271,17 @@ fn figure_9(lab: &Lab) -> anyhow::Result<Part> {
     for (name, numbers) in rows {
         table.row(name, &numbers, &[]);
     }
-    part.remark("The paper sees a hexagonal bias of the rings at 0.70 by Opt-beta. Well-spaced sets of that ratio have none: their order stays that of blue noise.");
+    part.remark(
+        "The paper sees a hexagonal bias of the rings at 0.70 by Opt-beta. Well-spaced sets of that ratio have none: their order stays \
+         that of blue noise.",
+    );
     Ok(part)
 }
 
 fn figure_11(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "Progress of beta, coverage radius and smallest distance by iteration, relative to the radius of the maximal Poisson-disk set that both begin with: CVT by Lloyd's method, and Opt-beta.",
+        "Progress of beta, coverage radius and smallest distance by iteration, relative to the radius of the maximal Poisson-disk set \
+         that both begin with: CVT by Lloyd's method, and Opt-beta.",
     );
     let n = lab.pick(1000, 4000);
     let steps: &[usize] = &[0, 1, 2, 3, 5, 8, 12, 20, 30, 50, 80, 120];
@@ -296,13 +315,17 @@ fn figure_11(lab: &Lab) -> anyhow::Result<Part> {
     for (name, numbers) in rows {
         table.row(name, &numbers, &[]);
     }
-    part.remark("Opt-beta's curves are of the best state so far. As in the paper, little progress is made after some dozens of iterations, and Opt-beta raises the smallest distance above that of the start.");
+    part.remark(
+        "Opt-beta's curves are of the best state so far. As in the paper, little progress is made after some dozens of iterations, and \
+         Opt-beta raises the smallest distance above that of the start.",
+    );
     Ok(part)
 }
 
 fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "Statistics of bounded meshes, coarse (r_MPS = 0.0314) and fine (0.0157). The paper's domain is not convex; ours is the unit square, as evenly has no polygons yet, so that the printed numbers stand beside ours for orientation only.",
+        "Statistics of bounded meshes, coarse (r_MPS = 0.0314) and fine (0.0157). The paper's domain is not convex; ours is the unit \
+         square, as evenly has no polygons yet, so that the printed numbers stand beside ours for orientation only.",
     );
     let printed: [[(&str, [f64; 5]); 5]; 2] = [
         [
@@ -344,6 +367,9 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
             table.row(format!("{}, r_MPS = {radius}", recipe.name), &ours, paper);
         }
     }
-    part.remark("Points are not kept on the border here, and the square has no reflex corner: the paper's domain is harder. As there, Opt-beta ends lowest of the paper's methods.");
+    part.remark(
+        "Points are not kept on the border here, and the square has no reflex corner: the paper's domain is harder. As there, Opt-beta \
+         ends lowest of the paper's methods.",
+    );
     Ok(part)
 }

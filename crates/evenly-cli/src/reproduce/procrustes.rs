@@ -12,7 +12,8 @@ use crate::method::Method;
 pub const STUDY: Study = Study {
     name: "procrustes",
     title: "Procrustes analysis, reproduced",
-    citation: "Chavdar Papazov and Hans-Christian Hege, Blue-noise Optimized Point Sets Based on Procrustes Analysis, ZIB-Report 17-55, 2017.",
+    citation: "Chavdar Papazov and Hans-Christian Hege, Blue-noise Optimized Point Sets Based on Procrustes Analysis, ZIB-Report 17-55, \
+        2017.",
     parts: &[("Figure 1", figure_1), ("Figure 4", figure_4), ("Figure 5", figure_5), ("Table 1", table_1)],
 };
 
@@ -38,8 +39,8 @@ fn lloyd() -> Recipe {
 
 fn figure_1(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "A point set, and the power spectrum, its radial mean and its anisotropy, averaged over 10 sets from white noise by the paper's plain steps. The paper shows the same pictures, \
-         without numbers.",
+        "A point set, and the power spectrum, its radial mean and its anisotropy, averaged over 10 sets from white noise by the paper's \
+         plain steps. The paper shows the same pictures, without numbers.",
     );
     let n = lab.pick(1024, 4096);
     let sets = lab.sets(&paper(), n, lab.pick(4, 10))?;
@@ -47,8 +48,8 @@ fn figure_1(lab: &Lab) -> anyhow::Result<Part> {
     let parts = [Draw::Points, Draw::PowerSpectrum, Draw::RadialPower, Draw::Anisotropy];
     part.figure(format!("{} sets of {n} points", sets.len()), profile.figure(&sets, &parts, POINTS)?);
     part.remark(
-        "The lowest frequencies keep some power: the plain steps move points by a spacing or two, and white noise has density waves that are longer. Evened out first, as the command line does, \
-         they are gone.",
+        "The lowest frequencies keep some power: the plain steps move points by a spacing or two, and white noise has density waves that \
+         are longer. Evened out first, as the command line does, they are gone.",
     );
     Ok(part)
 }
@@ -62,7 +63,10 @@ fn figure_4(lab: &Lab) -> anyhow::Result<Part> {
         part.figure(recipe.name, profile.figure(&sets, &[Draw::Points, Draw::PowerSpectrum, Draw::RadialPower], 700)?);
         part.figure(format!("{}: triangulation", recipe.name), profile.figure(&sets, &[Draw::Delaunay, Draw::Valence], 300)?);
     }
-    part.remark("CCVT (Balzer et al. 2009) is not among evenly's methods; equal areas by Push-Pull's capacity steps stand in for it, without its step to the centroids.");
+    part.remark(
+        "CCVT (Balzer et al. 2009) is not among evenly's methods; equal areas by Push-Pull's capacity steps stand in for it, without its \
+         step to the centroids.",
+    );
     part.remark("As in the paper, Lloyd's sets show hexagonal patches, and a turbulent spectrum.");
     Ok(part)
 }
@@ -102,15 +106,17 @@ fn figure_5(lab: &Lab) -> anyhow::Result<Part> {
         }
     }
     part.remark(
-        "The paper plots times of one core of a 1.1 GHz laptop, without numbers; ours are of all threads, wall time, with what precedes the iterations. As there, Procrustes is the fastest optimiser, its time \
-         is linear in the number of points, and the number of iterations hardly depends on it.",
+        "The paper plots times of one core of a 1.1 GHz laptop, without numbers; ours are of all threads, wall time, with what precedes \
+         the iterations. As there, Procrustes is the fastest optimiser, its time is linear in the number of points, and the number of \
+         iterations hardly depends on it.",
     );
     Ok(part)
 }
 
 fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "Root mean square of the angles' deviation from 60 degrees, and mean of twice the inradius over the circumradius, of the triangulations.",
+        "Root mean square of the angles' deviation from 60 degrees, and mean of twice the inradius over the circumradius, of the \
+         triangulations.",
     );
     let (n, n_sets) = (lab.pick(1024, 4096), lab.pick(3, 10));
     let table = part.table(&["angle RMS error", "average triangle quality"]);
@@ -134,8 +140,9 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     }
     table.row("CCVT", &[], &[14.5, 0.91]);
     part.remark(
-        "From white noise the plain steps end at 12.2 to 12.4 degrees in all large sets; single sets of some hundred points scatter from 11.2 to 12.8, so that the paper's 11.7 is one that a small set can have. Evened \
-         out first, and with momentum, the figures are better than printed.",
+        "From white noise the plain steps end at 12.2 to 12.4 degrees in all large sets; single sets of some hundred points scatter from \
+         11.2 to 12.8, so that the paper's 11.7 is one that a small set can have. Evened out first, and with momentum, the figures are \
+         better than printed.",
     );
     part.remark("CCVT is not among evenly's methods: the printed row alone.");
     Ok(part)

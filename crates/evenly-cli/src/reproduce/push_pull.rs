@@ -12,8 +12,8 @@ use crate::method::Method;
 pub const STUDY: Study = Study {
     name: "push-pull",
     title: "Push-Pull, reproduced",
-    citation: "Abdalla G. M. Ahmed, Jianwei Guo, Dong-Ming Yan, Jean-Yves Franceschi, Xiaopeng Zhang and Oliver Deussen, A Simple Push-Pull Algorithm for Blue-Noise Sampling, IEEE Transactions \
-               on Visualization and Computer Graphics 23(12), 2017.",
+    citation: "Abdalla G. M. Ahmed, Jianwei Guo, Dong-Ming Yan, Jean-Yves Franceschi, Xiaopeng Zhang and Oliver Deussen, A Simple \
+        Push-Pull Algorithm for Blue-Noise Sampling, IEEE Transactions on Visualization and Computer Graphics 23(12), 2017.",
     parts: &[("Table 1", table_1), ("Figure 4a", figure_4a), ("Figure 4b", figure_4b), ("Figure 4c", figure_4c), ("Figure 5", figure_5)],
 };
 
@@ -26,8 +26,8 @@ fn targets(min_distance: f64, coverage_radius: f64) -> PushPullParams {
 
 fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "Spacing, coverage, spectrum and order of blue-noise sets: smallest and mean distance to the nearest point, coverage radius, their ratio, effective Nyquist frequency, oscillation, bond-orientational order \
-         (of the tool psa). 1024 points.",
+        "Spacing, coverage, spectrum and order of blue-noise sets: smallest and mean distance to the nearest point, coverage radius, \
+         their ratio, effective Nyquist frequency, oscillation, bond-orientational order (of the tool psa). 1024 points.",
     );
     let recipes: [(Recipe, &[f64]); 11] = [
         (Recipe::start("Random", Method::White), &[0.023, 0.465, 1.635, 71.42, 0.0, 0.074, 0.363]),
@@ -75,8 +75,14 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     for (name, printed) in missing {
         table.row(name, &[], printed);
     }
-    part.remark("Random's beta is the ratio of two extremes and means nothing; its oscillation is that of single sets, and falls with their number or size. MPS has about as many points: its number is chance.");
-    part.remark("MPS's oscillation depends on the sampler: darts thrown at random, as here, have 1.5; boundary sampling, which puts points at exactly the radius, has 3.1.");
+    part.remark(
+        "Random's beta is the ratio of two extremes and means nothing; its oscillation is that of single sets, and falls with their \
+         number or size. MPS has about as many points: its number is chance.",
+    );
+    part.remark(
+        "MPS's oscillation depends on the sampler: darts thrown at random, as here, have 1.5; boundary sampling, which puts points at \
+         exactly the radius, has 3.1.",
+    );
     part.remark(
         "Push-pull-3 does not converge with the capacity tolerance of the other rows; it is run with 0.1, and an over-relaxation of 1.2.",
     );
@@ -114,7 +120,10 @@ fn figure_4a(lab: &Lab) -> anyhow::Result<Part> {
     for curve in &curves {
         table.row(curve.name.as_str(), &curve.points.iter().map(|p| p[1]).collect::<Vec<_>>(), &[]);
     }
-    part.remark("The paper's order holds: slower than MPS, faster than all other iterative methods but Procrustes, which it does not have. BNOT, CCVT, CapCVT and KDM are missing.");
+    part.remark(
+        "The paper's order holds: slower than MPS, faster than all other iterative methods but Procrustes, which it does not have. BNOT, \
+         CCVT, CapCVT and KDM are missing.",
+    );
     Ok(part)
 }
 
@@ -162,14 +171,17 @@ fn figure_4c(lab: &Lab) -> anyhow::Result<Part> {
     }
     curves.push(stability(lab, "random, evened out first", &Recipe::usual("Push-Pull", targets(0.85, 0.67)), n)?);
     convergence(&mut part, &curves);
-    part.remark("As in the paper, the more even the start, the faster. Evening white noise out first, which takes a few hundredths of the time, makes it as good as a jittered grid.");
+    part.remark(
+        "As in the paper, the more even the start, the faster. Evening white noise out first, which takes a few hundredths of the time, \
+         makes it as good as a jittered grid.",
+    );
     Ok(part)
 }
 
 fn figure_5(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "Reducing the coverage radius (first three) and increasing the smallest distance (last three): 1024 points, the zone plate sampled with a point a pixel and Mitchell's filter, power spectrum, radial mean, \
-         anisotropy.",
+        "Reducing the coverage radius (first three) and increasing the smallest distance (last three): 1024 points, the zone plate \
+         sampled with a point a pixel and Mitchell's filter, power spectrum, radial mean, anisotropy.",
     );
     let n_sets = lab.pick(3, 10);
     let sweep = [(0.75, 0.75), (0.75, 0.70), (0.75, 0.63), (0.75, 0.67), (0.85, 0.67), (0.92, 0.67)];
@@ -197,8 +209,9 @@ fn figure_5(lab: &Lab) -> anyhow::Result<Part> {
         table.row(name.as_str(), numbers, &[]);
     }
     part.remark(
-        "The paper judges by eye, and its text does not say which parameters its columns have. What it describes shows in the numbers: a larger smallest distance reduces noise at the cost of structured aliasing; a smaller \
-         coverage radius reduces noise as well, for less aliasing.",
+        "The paper judges by eye, and its text does not say which parameters its columns have. What it describes shows in the numbers: a \
+         larger smallest distance reduces noise at the cost of structured aliasing; a smaller coverage radius reduces noise as well, for \
+         less aliasing.",
     );
     Ok(part)
 }
