@@ -3,7 +3,7 @@
 //!
 //! The kernel is that of Barnett, Magland and af Klinteberg, "A Parallel Nonuniform Fast Fourier Transform Library Based on an 'Exponential of Semicircle'
 //! Kernel", SIAM Journal on Scientific Computing 41(5), 2019, doi 10.1137/18M120885X. It is 14 cells wide on a grid a quarter finer than needed, which leaves an error
-//! of some 1e-8 of the power of white noise. The grid is held in rows of which only the frequencies that are asked for are kept, so that memory
+//! of 2e-7 of a power, or of that of white noise where that is more. The grid is held in rows of which only the frequencies that are asked for are kept, so that memory
 //! is some 20 bytes a frequency more than the result.
 
 use rayon::prelude::*;
