@@ -32,7 +32,7 @@ pub fn picture(image: &Image) -> String {
 /// Draws a figure: a map of all layers together, as large as there is room; or panels, the map first and then each chart.
 ///
 /// # Errors
-/// [`Error::Points`] where the points are too few for what is asked for: a triangulation takes three that are not on one line, a spectrum some hundred.
+/// [`Error::Points`] where the points are too few for what is asked for: a triangulation takes three that are not on one line, a spectrum 16 and more.
 pub fn figure(subject: &Subject, draw: &[Draw], recipe: &str) -> Result<String, Error> {
     let mut parts = draw.to_vec();
     parts.sort_unstable();

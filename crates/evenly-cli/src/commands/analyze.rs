@@ -30,20 +30,13 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     let measured = names().zip(&sets).map(|(name, points)| Ok((name.clone(), pool.install(|| measure(points)).context(name)?)));
     let measured: Vec<(String, Measures)> = measured.collect::<anyhow::Result<_>>()?;
     let parts: Vec<Draw> = args.draw.iter().map(|&part| part.into()).collect();
-    let is_drawn = plot.is_some() && parts.iter().any(|part| part.is_spectral());
-    let spectrum = if args.spectrum || is_drawn { Some(pool.install(|| Spectrum::of(&sets, args.local))) } else { None };
-    let spectrum = match spectrum {
-        // A figure itself tells what it cannot draw.
-        Some(Err(_)) if !args.spectrum => None,
-        Some(spectrum) => Some(spectrum.with_context(|| names().collect::<Vec<_>>().join(", "))?),
-        None => None,
-    };
+    let spectrum = if args.spectrum { Some(pool.install(|| Spectrum::of(&sets, args.local))) } else { None };
+    let spectrum = spectrum.transpose().with_context(|| names().collect::<Vec<_>>().join(", "))?;
     if let Some(plot) = &plot {
         let (radial, power) = (spectrum.as_ref().map(|s| &s.radial), spectrum.as_ref().and_then(|s| s.power.as_ref()));
         let subject = Subject { sets: &sets, name: &title(args), is_local: args.local, most_points: None, radial, power };
         pool.install(|| write_figure(&subject, &parts, &record::recipe(None), plot)).with_context(|| plot.name())?;
     }
-    let spectrum = spectrum.filter(|_| args.spectrum);
     let found = Found { measured, spectrum };
     measured::print(&found.json(), args.measured.json, || found.table())
 }

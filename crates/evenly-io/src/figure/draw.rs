@@ -34,7 +34,7 @@ impl Draw {
     }
 
     /// Whether it shows the power spectrum or the pair correlation.
-    pub fn is_spectral(self) -> bool {
+    pub(super) fn is_spectral(self) -> bool {
         matches!(self, Self::PowerSpectrum | Self::RadialPower | Self::Anisotropy | Self::PairCorrelation | Self::Report)
     }
 

@@ -24,6 +24,7 @@ const TITLE: f64 = 40.0;
 const COLUMNS: usize = 3;
 /// The points in a report's map.
 const MOST: usize = 1000;
+
 /// What a figure is of.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {

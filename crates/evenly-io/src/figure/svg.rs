@@ -49,8 +49,11 @@ pub(super) fn embedded(png: &[u8], size: [f64; 2]) -> String {
     )
 }
 
-/// A line of text.
+/// A line of text, if there are words.
 pub(super) fn text(svg: &mut String, [x, y]: [f64; 2], size: f64, anchor: Anchor, words: &str) {
+    if words.is_empty() {
+        return;
+    }
     let anchor = match anchor {
         Anchor::Start => "",
         Anchor::Middle => " text-anchor=\"middle\"",

@@ -78,7 +78,7 @@ const MOST_DIRECT: usize = 20_000;
 const MOST_FREQUENCIES: f64 = (1u64 << 26) as f64;
 
 /// The mean power spectrum of sets on the same domain, for frequencies up to `max_frequency` inverse mean spacings in each direction; see [`PowerSpectrum::MAX_FREQUENCY`].
-/// Of many millions of points fewer are looked at, as the result says.
+/// Of many millions of points the largest frequency is less, as the result says.
 ///
 /// # Errors
 /// [`Error::Degenerate`] for no sets, an empty one, and sets of different domains, or with numbers of points more than a tenth apart, which have no
