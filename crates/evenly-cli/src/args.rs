@@ -9,7 +9,8 @@ use evenly_io::Format;
 use crate::measuring_args::{Analyze, Bilateral, Reproduce, Zoneplate};
 use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
-use crate::shared_args::{DrawArg, LongArgs, SpaceArgs};
+use crate::shared_args::{DensityArgs, DrawArg, LongArgs, SpaceArgs};
+use crate::stipple_args::Stipple;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -18,6 +19,7 @@ Examples:
   evenly generate -n 10000 --method push-pull --min-distance 0.85 --coverage-radius 0.67 -o points.csv
   evenly optimize points.csv --size 640,480 -o better.csv
   evenly analyze better.csv --size 640,480 --json
+  evenly stipple photo.jpg -n 20000 -o drawing.svg
   evenly compare -n 1000 --methods lloyd,well-spaced,push-pull -o table.html
 
 Exit codes: 0 done; 1 done, but not converged or a target not reached; 2 bad usage or input, or no output; 130 interrupted, state reached written";
@@ -38,6 +40,8 @@ pub enum Command {
     Optimize(Optimize),
     /// Measure points: the proof
     Analyze(Analyze),
+    /// Draw a picture with dots, as many as asked for: for plotters, print and screen
+    Stipple(Stipple),
     /// Run several methods on the same points, and lay their measures side by side
     Compare(Compare),
     /// Sample the zone plate sin(x^2 + y^2) with points, and measure noise and aliasing
@@ -73,6 +77,8 @@ pub struct Generate {
     #[command(flatten)]
     pub space: SpaceArgs,
     #[command(flatten)]
+    pub density: DensityArgs,
+    #[command(flatten)]
     pub optimizer: OptimizerArgs,
     #[command(flatten)]
     pub starts: StartArgs,
@@ -94,15 +100,16 @@ pub struct Optimize {
     #[command(flatten)]
     pub space: SpaceArgs,
     #[command(flatten)]
+    pub density: DensityArgs,
+    #[command(flatten)]
     pub optimizer: OptimizerArgs,
     #[command(flatten)]
     pub run: RunArgs,
 }
 
 #[derive(Args)]
-#[command(
-    after_help = "Example:\n  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html\n\nTargets that are missed are no failure here: the table has the share of runs that reached them."
-)]
+#[command(after_help = "Example:\n  evenly stipple photo.jpg -n 20000 -o drawing.svg
+  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html\n\nTargets that are missed are no failure here: the table has the share of runs that reached them.")]
 pub struct Compare {
     /// Points that all begin with, as .txt, .csv or .npy; - is stdin [default: new ones for each run, from --start]
     pub input: Option<PathBuf>,
@@ -169,7 +176,7 @@ pub fn command() -> Clap {
     Cli::command().mut_subcommand("generate", with_methods).mut_subcommand("optimize", with_methods).mut_subcommand("compare", with_methods)
 }
 
-fn parse_count(text: &str) -> Result<usize, String> {
+pub fn parse_count(text: &str) -> Result<usize, String> {
     let number = text.parse::<usize>().ok().or_else(|| {
         // 1e6 is a count too.
         let number = text.parse::<f64>().ok()?;
@@ -181,7 +188,7 @@ fn parse_count(text: &str) -> Result<usize, String> {
     }
 }
 
-fn parse_format(text: &str) -> Result<Format, String> {
+pub fn parse_format(text: &str) -> Result<Format, String> {
     let names: Vec<&str> = Format::ALL.iter().map(|&(name, _)| name).collect();
     Format::from_name(text).ok_or_else(|| format!("it must be one of {}", names.join(", ")))
 }

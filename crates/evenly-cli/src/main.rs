@@ -18,6 +18,8 @@ mod record;
 mod reproduce;
 mod session;
 mod shared_args;
+mod stipple;
+mod stipple_args;
 mod table;
 mod talk;
 
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
         Command::Generate(args) => commands::generate::run(args, flags),
         Command::Optimize(args) => commands::optimize::run(args, flags),
         Command::Analyze(args) => commands::analyze::run(args),
+        Command::Stipple(args) => commands::stipple::run(args),
         Command::Compare(args) => commands::compare::run(args, flags),
         Command::Zoneplate(args) => commands::zoneplate::run(args),
         Command::Bilateral(args) => commands::bilateral::run(args),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use evenly::ReconstructionFilter;
 
-use crate::shared_args::{DrawArg, LongArgs, SpaceArgs};
+use crate::shared_args::{DensityArgs, DrawArg, LongArgs, SpaceArgs};
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
@@ -15,6 +15,8 @@ pub struct Analyze {
     pub inputs: Vec<PathBuf>,
     #[command(flatten)]
     pub space: SpaceArgs,
+    #[command(flatten)]
+    pub density: DensityArgs,
     /// The power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON
     #[arg(long)]
     pub spectrum: bool,

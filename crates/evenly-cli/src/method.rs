@@ -50,9 +50,13 @@ pub enum Method {
 
 const OPTIMIZERS: &[Method] = &[Procrustes, PushPull, WellSpaced, OptBeta, Lloyd, Cvt, FarthestPoint, DistMesh, Capacity];
 
+/// Those that know a density.
+const BY_DENSITY: &[Method] = &[Procrustes, PushPull, WellSpaced, Lloyd, DistMesh, Capacity, PoissonDisk, Eliminate, White, Method::Warp];
+
 /// The flags that not every method takes, by their ids.
 const FLAGS: &[(&str, &[Method])] = &[
     ("start", OPTIMIZERS),
+    ("density", BY_DENSITY),
     ("iterations", OPTIMIZERS),
     ("no_warp", &[Procrustes, PushPull, WellSpaced]),
     ("mode", &[Procrustes]),
@@ -117,7 +121,7 @@ pub fn parser(is_offered: fn(Method) -> bool) -> impl TypedValueParser<Value = M
 /// The command with each flag's methods in its help.
 pub fn with_methods(command: Command) -> Command {
     command.mut_args(|arg| {
-        let own = FLAGS.iter().find(|(id, methods)| arg.get_id() == id && *methods != OPTIMIZERS);
+        let own = FLAGS.iter().find(|(id, methods)| arg.get_id() == id && methods.len() < OPTIMIZERS.len());
         let Some((_, methods)) = own else { return arg };
         let own = |help: Option<&StyledStr>| format!("{}: {}", names(methods), help.map(ToString::to_string).unwrap_or_default());
         let help = own(arg.get_help());
@@ -133,6 +137,21 @@ fn names(methods: &[Method]) -> String {
     match &names[..] {
         [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
         _ => names.concat(),
+    }
+}
+
+impl Method {
+    pub fn knows_density(self) -> bool {
+        BY_DENSITY.contains(&self)
+    }
+
+    /// Refuses a start that knows no density, where there is one.
+    pub fn require_density(self) -> anyhow::Result<()> {
+        let known: Vec<Self> = BY_DENSITY.iter().copied().filter(|method| method.is_start()).collect();
+        if !known.contains(&self) {
+            bail!("--start {} goes by no density; take {}", self.name(), names(&known));
+        }
+        Ok(())
     }
 }
 

@@ -3,9 +3,9 @@
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use evenly::{
-    CANDIDATES_A_POINT, CapacityParams, CvtParams, DartParams, DistMeshParams, Error, FarthestPointParams, LloydParams, MAX_POINTS, Mode,
-    OptBetaParams, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams, PushPullPreset, Schedule, Space, WellSpacedParams, dart,
-    eliminate, hexagonal, jittered, poisson_disk, white,
+    CANDIDATES_A_POINT, CapacityParams, CvtParams, DartParams, Density, DistMeshParams, Error, FarthestPointParams, LloydParams,
+    MAX_POINTS, Mode, OptBetaParams, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams, PushPullPreset, Schedule, Space,
+    WellSpacedParams, dart, eliminate, hexagonal, jittered, poisson_disk_by_density, poisson_disk_of_density, white_by_density,
 };
 
 use crate::method::Method;
@@ -76,7 +76,7 @@ pub struct StartArgs {
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
     /// No place farther from all points than this, in the domain's units: more than the spacing makes points fewer, and more random
-    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, hide_short_help = true)]
     coverage: Option<f64>,
     /// Misses in a row after which a set is full, or without --spacing the spacing shrinks [default: 1000]
     #[arg(long, value_name = "K", allow_negative_numbers = true, hide_short_help = true)]
@@ -227,7 +227,14 @@ impl OptimizerArgs {
 
 impl StartArgs {
     /// Makes points by a method that is no optimiser, and says what the user should know.
-    pub fn make(&self, method: Method, space: Space, n_points: Option<usize>, seed: u64) -> anyhow::Result<(PointSet, Option<String>)> {
+    pub fn make(
+        &self,
+        method: Method,
+        space: Space,
+        density: &Density,
+        n_points: Option<usize>,
+        seed: u64,
+    ) -> anyhow::Result<(PointSet, Option<String>)> {
         if self.spacing.is_some() && n_points.is_some() {
             bail!("--spacing and --n-points exclude each other: how many points fit is chance");
         }
@@ -235,25 +242,31 @@ impl StartArgs {
             bail!("--spacing or --n-points is missing: how near to each other, or how many?");
         }
         match (method, n_points) {
-            (Method::PoissonDisk, _) => self.poisson_disk(space, n_points, seed),
+            (Method::PoissonDisk, _) => self.poisson_disk(space, density, n_points, seed),
             (Method::Dart, _) => {
                 let mut params = DartParams { n_points, spacing: self.spacing, seed, ..DartParams::default() };
                 set(&mut params.tries, self.tries);
                 Ok((dart(space, &params).map_err(by_flag)?, None))
             }
-            (_, Some(n)) => Ok((start(method, space, n, seed)?, None)),
+            (_, Some(n)) => Ok((start(method, space, density, n, seed)?, None)),
             (_, None) => bail!("--n-points is missing: how many?"),
         }
     }
 
-    fn poisson_disk(&self, space: Space, n_points: Option<usize>, seed: u64) -> anyhow::Result<(PointSet, Option<String>)> {
+    fn poisson_disk(
+        &self,
+        space: Space,
+        density: &Density,
+        n_points: Option<usize>,
+        seed: u64,
+    ) -> anyhow::Result<(PointSet, Option<String>)> {
         let estimated = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, n_points.unwrap_or(1)) };
         let params = self.spacing.map_or(estimated, |spacing| PoissonDiskParams { spacing, ..estimated });
-        let points = poisson_disk(space, &PoissonDiskParams { coverage: self.coverage, ..params }).map_err(by_flag)?;
+        let points = poisson_disk_by_density(space, density, &PoissonDiskParams { coverage: self.coverage, ..params }).map_err(by_flag)?;
         let note = n_points.filter(|&n| n != points.n_points()).map(|n| {
             let why = match self.coverage {
                 Some(_) => "with a wider coverage fewer points are needed",
-                None if n < points.n_points() / 2 => "on so narrow a torus the spacing cannot be wider",
+                None if n < points.n_points() / 2 && density.is_uniform() => "on so narrow a torus the spacing cannot be wider",
                 None => "a maximal set's number of points is chance",
             };
             format!("{why}: {} for {n}, with a spacing of {:.6e}", points.n_points(), params.spacing)
@@ -263,21 +276,22 @@ impl StartArgs {
 }
 
 /// Exactly so many points for an optimiser to begin with.
-pub fn start(method: Method, space: Space, n_points: usize, seed: u64) -> Result<PointSet, Error> {
+pub fn start(method: Method, space: Space, density: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
     match method {
-        Method::PoissonDisk => evenly::poisson_disk_of(space, n_points, seed),
+        Method::PoissonDisk => poisson_disk_of_density(space, density, n_points, seed),
         Method::Dart => dart(space, &DartParams { n_points: Some(n_points), seed, ..DartParams::default() }),
         Method::Eliminate => {
-            eliminate(&white(space, n_points.saturating_mul(CANDIDATES_A_POINT).min(MAX_POINTS.max(n_points)), seed)?, n_points)
+            let n_candidates = n_points.saturating_mul(CANDIDATES_A_POINT).min(MAX_POINTS.max(n_points));
+            eliminate(&white_by_density(space, density, n_candidates, seed)?, n_points)
         }
         Method::Jittered => jittered(space, n_points, seed),
         Method::Hexagonal => hexagonal(space, n_points),
-        _ => white(space, n_points, seed),
+        _ => white_by_density(space, density, n_points, seed),
     }
 }
 
 /// The same error, with the name that the user knows.
-fn by_flag(error: Error) -> anyhow::Error {
+pub fn by_flag(error: Error) -> anyhow::Error {
     match error {
         Error::InvalidParameter { name, value, expected } => {
             let flag = if name.starts_with("max_") { "iterations".to_owned() } else { name.replace('_', "-") };

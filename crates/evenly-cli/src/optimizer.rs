@@ -23,6 +23,9 @@ impl<T: Serialize> Parameters for T {
 pub trait Optimizer: Parameters + Send + Sync {
     fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error>;
 
+    /// Checks its parameters.
+    fn check(&self) -> Result<(), Error>;
+
     /// What its own chance depends on.
     fn seed(&self) -> Option<u64> {
         None
@@ -44,6 +47,10 @@ impl Optimizer for ProcrustesParams {
         procrustes(points, self, run)
     }
 
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
     fn warp(&self) -> Option<fn(&mut PointSet)> {
         Some(warp)
     }
@@ -52,6 +59,10 @@ impl Optimizer for ProcrustesParams {
 impl Optimizer for PushPullParams {
     fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
         push_pull(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
     }
 
     fn seed(&self) -> Option<u64> {
@@ -72,6 +83,10 @@ impl Optimizer for WellSpacedParams {
         well_spaced(points, self, run)
     }
 
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
     fn seed(&self) -> Option<u64> {
         Some(self.seed)
     }
@@ -90,6 +105,10 @@ impl Optimizer for OptBetaParams {
         opt_beta(points, self, run)
     }
 
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
     fn targets(&self) -> Option<&dyn Targets> {
         Some(self)
     }
@@ -98,6 +117,10 @@ impl Optimizer for OptBetaParams {
 impl Optimizer for LloydParams {
     fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
         lloyd(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
     }
 
     fn seed(&self) -> Option<u64> {
@@ -110,6 +133,10 @@ impl Optimizer for DistMeshParams {
         distmesh(points, self, run)
     }
 
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
     fn seed(&self) -> Option<u64> {
         Some(self.seed)
     }
@@ -118,6 +145,10 @@ impl Optimizer for DistMeshParams {
 impl Optimizer for CapacityParams {
     fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
         capacity(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
     }
 
     fn seed(&self) -> Option<u64> {
@@ -134,6 +165,10 @@ impl Optimizer for FarthestPointParams {
         farthest_point(points, self, run)
     }
 
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
     fn targets(&self) -> Option<&dyn Targets> {
         self.min_distance.map(|_| self as &dyn Targets)
     }
@@ -142,5 +177,9 @@ impl Optimizer for FarthestPointParams {
 impl Optimizer for CvtParams {
     fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
         cvt(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
     }
 }

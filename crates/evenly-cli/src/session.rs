@@ -132,6 +132,7 @@ impl<'a> Session<'a> {
             self.note("all points lay on one line and were spread first".into());
         }
         if report.outcome != Outcome::Converged
+            && points.density().is_uniform()
             && let Some(start) = start
             && self.is_nearer(&start, &points, &*optimizer)
         {
@@ -263,7 +264,8 @@ fn work(run: &Report) -> String {
     format!("{visits:.1} visits a point, {} flips, {} triangulations", run.flips, run.triangulations)
 }
 
-fn show(bar: &ProgressBar, progress: Progress) {
+/// Shows how far a run has come.
+pub fn show(bar: &ProgressBar, progress: Progress) {
     let energy = progress.energy.map_or_else(String::new, |energy| format!(", energy {energy:.5}"));
     bar.set_message(match (progress.phase, progress.stable_share) {
         (Phase::Separate | Phase::Triangulate, _) => "triangulating".to_owned(),

@@ -1,8 +1,10 @@
-//! Arguments that several verbs take: the domain, and what a figure shows.
+//! Arguments that several verbs take: the domain, its density, and what a figure shows.
+
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use evenly::{Error, Rectangle, Space, Torus};
-use evenly_io::Draw;
+use evenly::{Density, Error, Rectangle, Space, Torus};
+use evenly_io::{Draw, Photograph, Tone};
 
 #[derive(Args)]
 pub struct SpaceArgs {
@@ -15,6 +17,70 @@ pub struct SpaceArgs {
     /// Lower left corner
     #[arg(long, value_name = "X,Y", default_value = "0,0", value_parser = parse_pair, allow_hyphen_values = true)]
     pub origin: [f64; 2],
+}
+
+#[derive(Args)]
+pub struct DensityArgs {
+    /// More points where a picture is lighter; HOW: invert,gamma=G,floor=F
+    ///
+    /// The picture, .png, .jpg or .tif, spans the domain, and its luma is the density that is wanted: where it is black there are no points. HOW is any of invert (dark counts
+    /// instead), contrast=C (tones are spread from middle grey), gamma=G (raised to this power) and floor=F (the least density, from 0 to 1), with commas between them.
+    /// For all methods but opt-beta, cvt, farthest-point, dart, jittered and hexagonal.
+    #[arg(long, value_name = "FILE[:HOW]", value_parser = parse_density)]
+    density: Option<DensitySpec>,
+}
+
+/// A picture, and what is made of its tones.
+#[derive(Clone, Debug)]
+struct DensitySpec {
+    path: PathBuf,
+    tone: Tone,
+}
+
+impl DensityArgs {
+    pub fn is_given(&self) -> bool {
+        self.density.is_some()
+    }
+
+    /// The density; uniform if none is given.
+    pub fn density(&self) -> anyhow::Result<Density> {
+        let Some(DensitySpec { path, tone }) = &self.density else { return Ok(Density::uniform()) };
+        Ok(Photograph::read(path)?.density(tone)?)
+    }
+
+    /// The file, where it is one.
+    pub fn path(&self) -> Option<&PathBuf> {
+        self.density.as_ref().map(|spec| &spec.path)
+    }
+}
+
+fn parse_density(text: &str) -> Result<DensitySpec, String> {
+    let known = |options: &str| options.split(',').all(|option| ["invert", "contrast", "gamma", "floor"].contains(&name_of(option)));
+    match text.rsplit_once(':') {
+        Some((path, options)) if !path.is_empty() && known(options) => Ok(DensitySpec { path: path.into(), tone: parse_tone(options)? }),
+        _ => Ok(DensitySpec { path: text.into(), tone: Tone::default() }),
+    }
+}
+
+fn name_of(option: &str) -> &str {
+    option.split_once('=').map_or(option, |(name, _)| name)
+}
+
+fn parse_tone(options: &str) -> Result<Tone, String> {
+    let mut tone = Tone::default();
+    for option in options.split(',') {
+        let number = |is_good: fn(f64) -> bool, expected: &str| {
+            let value = option.split_once('=').and_then(|(_, value)| value.parse::<f64>().ok());
+            value.filter(|&value| is_good(value)).ok_or_else(|| format!("{option:?}: {} must be {expected}", name_of(option)))
+        };
+        match name_of(option) {
+            "invert" => tone.is_inverted = true,
+            "contrast" => tone.contrast = number(|c| (0.0..=100.0).contains(&c), "a number from 0 to 100")?,
+            "gamma" => tone.gamma = number(|g| g > 0.0 && g <= 100.0, "a number above 0, and 100 at most")?,
+            _ => tone.floor = number(|f| (0.0..=1.0).contains(&f), "a number from 0 to 1")?,
+        }
+    }
+    Ok(tone)
 }
 
 /// What long work takes besides.

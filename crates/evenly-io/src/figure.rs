@@ -18,8 +18,8 @@ pub use draw::Draw;
 use page::Page;
 pub use page::Subject;
 pub use series::{Curve, chart};
-pub(crate) use svg::FONT;
 use svg::drawing;
+pub(crate) use svg::{FONT, Short, sheet};
 
 /// A picture of pixels as SVG, a pixel to a unit, for pages that hold several.
 pub fn picture(image: &Image) -> String {

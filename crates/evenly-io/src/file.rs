@@ -100,6 +100,24 @@ impl Target {
         self.format
     }
 
+    /// That it holds points where a figure was wanted.
+    pub(crate) fn no_figure(&self) -> Error {
+        let choices = Format::endings(|format| !format.holds_points());
+        Error::Format { name: self.name(), problem: "this is a format of points", choices }
+    }
+
+    /// The same name with another ending, beside it.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; for stdout, which has no name.
+    pub fn beside(&self, format: Format) -> Result<Self, Error> {
+        if self.is_stdout() {
+            return Err(Error::content(self.name(), "this has no name that another file could have beside it"));
+        }
+        let name = Format::ALL.iter().find(|(_, known)| *known == format).map_or("", |(name, _)| name);
+        Self::new(&self.path.with_extension(name), Some(format), self.may_overwrite)
+    }
+
     /// Whether both are the same file, or both stdout.
     pub fn is_same(&self, other: &Self) -> bool {
         let place = |target: &Self| {

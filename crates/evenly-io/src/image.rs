@@ -1,4 +1,4 @@
-//! Pictures: PNG and JPEG in, PNG out.
+//! Pictures: PNG, JPEG and TIFF in, PNG out.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -10,13 +10,21 @@ use crate::file::read_bytes;
 use crate::pixels::{bytes, colour, encode};
 use crate::{Error, Target};
 
-/// Reads a PNG or JPEG, of 8 or 16 bits, grey or in colour; what is transparent lies on white. `-` is stdin.
+/// Reads a PNG, JPEG or TIFF, of 8 or 16 bits, grey or in colour; what is transparent lies on white. `-` is stdin.
 ///
 /// # Errors
 /// [`Error`] with the file's name, for what is no such picture, and for more than [`Image::MOST_PIXELS`].
 pub fn read_image(path: &Path) -> Result<Image, Error> {
+    let (name, picture) = decode(path, Image::MOST_PIXELS)?;
+    let (width, height) = (picture.width(), picture.height());
+    let (n_channels, values) = values(picture);
+    Image::new(width as usize, height as usize, n_channels, values).map_err(|e| Error::content(&name, e.to_string()))
+}
+
+/// A picture's file name for messages, and its pixels as they are meant to be seen.
+pub(crate) fn decode(path: &Path, most_pixels: usize) -> Result<(String, DynamicImage), Error> {
     let (name, bytes) = read_bytes(path)?;
-    let unreadable = |e: image::ImageError| Error::content(&name, format!("not a readable PNG or JPEG ({e})"));
+    let unreadable = |e: image::ImageError| Error::content(&name, format!("not a readable PNG, JPEG or TIFF ({e})"));
     if bytes.starts_with(b"\xff\xd8") && !is_whole_jpeg(&bytes) {
         return Err(Error::content(&name, "not a whole JPEG: its end is missing"));
     }
@@ -24,17 +32,15 @@ pub fn read_image(path: &Path) -> Result<Image, Error> {
     reader.no_limits();
     let mut decoder = reader.with_guessed_format().map_err(|e| unreadable(e.into()))?.into_decoder().map_err(unreadable)?;
     let (width, height) = decoder.dimensions();
-    if width as usize * height as usize > Image::MOST_PIXELS {
-        let problem = format!("{width} x {height} pixels; at most {} are possible: make it smaller", Image::MOST_PIXELS);
+    if width as usize * height as usize > most_pixels {
+        let problem = format!("{width} x {height} pixels; at most {most_pixels} are possible: make it smaller");
         return Err(Error::content(&name, problem));
     }
     // Cameras turn the picture, not the pixels.
     let orientation = decoder.orientation().map_err(unreadable)?;
     let mut picture = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
     picture.apply_orientation(orientation);
-    let (width, height) = (picture.width(), picture.height());
-    let (n_channels, values) = values(picture);
-    Image::new(width as usize, height as usize, n_channels, values).map_err(|e| Error::content(&name, e.to_string()))
+    Ok((name, picture))
 }
 
 /// Whether the end is marked after the last scan: decoders make grey of what is missing. Neither mark is found in a scan.

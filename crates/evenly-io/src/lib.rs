@@ -2,6 +2,7 @@
 //!
 //! A file is written whole or not at all; an error names the file, the line and the value.
 
+mod drawing;
 mod error;
 mod figure;
 mod file;
@@ -9,15 +10,18 @@ mod format;
 mod image;
 mod npy;
 mod output;
+mod photograph;
 mod pixels;
 mod render;
 mod scraps;
 mod text;
 
+pub use drawing::{Drawing, Layer, Marks};
 pub use error::Error;
 pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture};
 pub use file::{Target, make_folder, read_positions};
 pub use format::Format;
 pub use image::{read_image, write_image};
 pub use output::{write_figure, write_points};
+pub use photograph::{Photograph, Tone, luma};
 pub use scraps::Scraps;

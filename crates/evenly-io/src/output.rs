@@ -31,11 +31,7 @@ pub fn write_figure(subject: &Subject, draw: &[Draw], recipe: &str, target: &Tar
         Format::Pdf => render::pdf(&svg, recipe),
         Format::Svg => Ok(svg.into_bytes()),
         Format::Txt | Format::Csv | Format::Npy => {
-            return Err(Error::Format {
-                name: target.name(),
-                problem: "this is a format of points",
-                choices: Format::endings(|format| !format.holds_points()),
-            });
+            return Err(target.no_figure());
         }
     };
     target.write(&rendered.map_err(|e| Error::content(target.name(), e))?)

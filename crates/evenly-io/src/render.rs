@@ -17,22 +17,44 @@ use crate::pixels::encode;
 const FONT_FILE: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
 /// Pixels to a unit of the SVG.
 const SCALE: f32 = 2.0;
+/// An inch in millimetres, in SVG's own units and in PDF's points.
+const MM_PER_INCH: f64 = 25.4;
+const UNITS_PER_INCH: f64 = 96.0;
+const POINTS_PER_INCH: f64 = 72.0;
 
 /// Renders an SVG as a PNG, two pixels to a unit, on white; the recipe becomes its comment.
 pub(crate) fn png(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {
+    scaled_png(svg, SCALE, recipe)
+}
+
+/// Renders an SVG in millimetres as a PNG.
+pub(crate) fn png_of_page(svg: &str, pixels_per_mm: f64, recipe: &str) -> Result<Vec<u8>, String> {
+    scaled_png(svg, (pixels_per_mm * MM_PER_INCH / UNITS_PER_INCH) as f32, recipe)
+}
+
+fn scaled_png(svg: &str, scale: f32, recipe: &str) -> Result<Vec<u8>, String> {
     let tree = tree(svg)?;
-    let pixels = |length: f32| (length * SCALE).round().max(1.0) as u32;
+    let pixels = |length: f32| (length * scale).round().max(1.0) as u32;
     let mut pixmap = Pixmap::new(pixels(tree.size().width()), pixels(tree.size().height())).ok_or("the picture has no size")?;
     pixmap.fill(Color::WHITE);
-    resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     // On opaque white, premultiplied colours are plain colours.
     encode(pixmap.data(), pixmap.width(), pixmap.height(), png::ColorType::Rgba, recipe).map_err(|e| e.to_string())
 }
 
 /// Renders an SVG as a page of PDF, a point to a unit, with text as text; the recipe becomes its description.
 pub(crate) fn pdf(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {
+    scaled_pdf(svg, 1.0, recipe)
+}
+
+/// Renders an SVG in millimetres as a page of PDF of the same size.
+pub(crate) fn pdf_of_page(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {
+    scaled_pdf(svg, (POINTS_PER_INCH / UNITS_PER_INCH) as f32, recipe)
+}
+
+fn scaled_pdf(svg: &str, scale: f32, recipe: &str) -> Result<Vec<u8>, String> {
     let tree = tree(svg)?;
-    let (width, height) = (tree.size().width(), tree.size().height());
+    let (width, height) = (scale * tree.size().width(), scale * tree.size().height());
     let (size, settings) = Size::from_wh(width, height).zip(PageSettings::from_wh(width, height)).ok_or("the picture has no size")?;
     let mut document = krilla::Document::new();
     document.set_metadata(Metadata::new().creator("evenly".into()).description(recipe.into()));

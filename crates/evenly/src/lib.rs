@@ -15,6 +15,7 @@
 //! Lengths that are targets or measures are relative: 1 is the spacing of the hexagonal lattice with as many points,
 //! [`PointSet::hex_spacing`]. Positions are in whatever units the domain has.
 
+mod density;
 mod error;
 mod imaging;
 mod measure;
@@ -27,9 +28,11 @@ mod star;
 mod sweep;
 mod triangulation;
 
+pub use density::Density;
 pub use error::Error;
 pub use imaging::{
-    BilateralParams, Image, ImageDifference, ReconstructionFilter, ZonePlate, ZonePlateParams, bilateral, subsampled_bilateral, zone_plate,
+    BilateralParams, Image, ImageDifference, ReconstructionFilter, Similarity, ZonePlate, ZonePlateParams, bilateral, dot_coverage,
+    subsampled_bilateral, zone_plate,
 };
 pub use measure::{
     BorderMeasures, Measures, PowerSpectrum, RadialSpectrum, Tessellation, differential_spectrum, local_spacings, measure, power_spectrum,
@@ -42,7 +45,7 @@ pub use optimize::{
 };
 pub use points::{
     CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,
-    poisson_disk_of, warp, warp_isotropic, white,
+    poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, tour, warp, warp_isotropic, white, white_by_density,
 };
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Space, Torus};

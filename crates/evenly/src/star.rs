@@ -1,5 +1,8 @@
 //! A *star*: one vertex seen from itself. It knows lengths and angles, and no coordinates of the domain; a rule reads it, and nothing else.
 //!
+//! Where a density varies, what rules compare with their targets is weighted by it: lengths and radii by its root, areas by itself. [`Metric`] holds the
+//! weights; without a density all are 1.
+//!
 //! Lengths are in units of the wanted spacing. The wedge of two neighbouring spokes u and v has a circumcircle, and holds a kite of the
 //! vertex' Voronoi cell: with c and s the cosine and sine of its angle, R = |u - v| / (2 s), and the half of the
 //! Voronoi edge on u that lies in it is (v - u c) / (2 s) long, negative where it lies on the other side of u.
@@ -47,6 +50,50 @@ pub(crate) struct Star {
     pub scratch: Vec<f64>,
     /// The lengths of the Voronoi edges across the spokes, as [`Self::measure_cell`] has found them.
     pub sides: Vec<f64>,
+    /// What the density makes of it.
+    pub metric: Metric,
+}
+
+/// What a rule compares with its targets: where the density varies, each is found by walking through pixels, so only what is asked for is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Senses {
+    /// Lengths that may be below this; of others it is enough to know that they are not.
+    pub lengths: Option<f64>,
+    /// Radii that may be above this.
+    pub radii: Option<f64>,
+    pub mass: bool,
+    pub centroid: bool,
+}
+
+/// A star's weights, as far as a rule has asked for them; the vectors are empty and the scale is 1 where the density is uniform.
+#[derive(Debug, Clone)]
+pub(crate) struct Metric {
+    /// For each spoke the mean of the density's root along it; for one that is as long as was asked for in any case, a bound below it.
+    pub spokes: Vec<f64>,
+    /// For each wedge the mean of the density's root along the radii of its triangle, from all three corners; or a bound above it.
+    pub radii: Vec<f64>,
+    /// For each spoke the mean density along the Voronoi edge across it; where the mass is asked for.
+    pub sides: Vec<f64>,
+    /// The Voronoi cell's mass, and its centroid by mass relative to the vertex, in spacings.
+    pub mass: Option<f64>,
+    pub centroid: Option<DVec2>,
+    /// The root of the cell's mean density: the local spacing is 1 / scale.
+    pub scale: f64,
+}
+
+impl Default for Metric {
+    fn default() -> Self {
+        Self { spokes: Vec::new(), radii: Vec::new(), sides: Vec::new(), mass: None, centroid: None, scale: 1.0 }
+    }
+}
+
+impl Metric {
+    pub fn clear(&mut self) {
+        self.spokes.clear();
+        self.radii.clear();
+        self.sides.clear();
+        (self.mass, self.centroid, self.scale) = (None, None, 1.0);
+    }
 }
 
 /// The side of a bounded domain: places p inside have p . normal <= distance.
@@ -60,6 +107,11 @@ pub(crate) struct Wall {
 pub(crate) trait Rule: Sync {
     /// Whether the rule looks beyond the star, at `ring`, `beyond` and `walls`, and may leave a `shift`.
     const LOOKS_AROUND: bool = false;
+
+    /// What it compares with its targets.
+    fn senses(&self) -> Senses {
+        Senses::default()
+    }
 
     /// Leaves new `lengths`, `weights` or a `shift`; false where all is as it should be, and nothing is to be done.
     fn visit(&self, star: &mut Star) -> bool;
@@ -76,6 +128,19 @@ impl Star {
         self.is_mirror.clear();
         self.weights.clear();
         self.shift = DVec2::ZERO;
+        self.metric.clear();
+    }
+
+    /// By how much spoke `k` is longer in the measure of the density.
+    #[inline]
+    pub fn stretch(&self, k: usize) -> f64 {
+        self.metric.spokes.get(k).copied().unwrap_or(1.0)
+    }
+
+    /// The same of the radii of wedge `k`'s triangle.
+    #[inline]
+    fn radial_stretch(&self, k: usize) -> f64 {
+        self.metric.radii.get(k).copied().unwrap_or(1.0)
     }
 
     /// The spoke after `k`.
@@ -84,16 +149,22 @@ impl Star {
         if k + 1 == self.lengths.len() { 0 } else { k + 1 }
     }
 
-    /// Whether the circumradius of wedge `k`'s triangle is at most `radius`.
+    /// Whether the weighted circumradius of wedge `k`'s triangle is at most `radius`.
     #[inline]
     pub fn is_covered(&self, k: usize, radius: f64) -> bool {
         let diameter = 2.0 * radius * self.wedges[k].sin;
-        self.rim_squared(k) <= diameter * diameter
+        let stretch = self.radial_stretch(k);
+        self.rim_squared(k) * (stretch * stretch) <= diameter * diameter
     }
 
     /// The circumradius of wedge `k`'s triangle.
     pub fn circumradius(&self, k: usize) -> f64 {
         0.5 * self.rim_squared(k).sqrt() * self.wedges[k].cosecant
+    }
+
+    /// The same, weighted: the mean of the ways from the triangle's three corners.
+    pub fn weighted_radius(&self, k: usize) -> f64 {
+        self.circumradius(k) * self.radial_stretch(k)
     }
 
     /// The circumcentre of wedge `k`'s triangle, as a combination of its two spokes.
@@ -111,7 +182,7 @@ impl Star {
         u * u + v * v - 2.0 * u * v * self.wedges[k].cos
     }
 
-    /// Whether the circumradii of all wedges' triangles are at most `radius`.
+    /// Whether the weighted circumradii of all wedges' triangles are at most `radius`.
     pub fn is_all_covered(&self, radius: f64) -> bool {
         (0..self.n_spokes()).all(|k| self.is_covered(k, radius))
     }
@@ -126,13 +197,18 @@ impl Star {
         })
     }
 
-    /// How far the vertex is to go by `weights`.
+    /// How far the vertex is to go by `weights` or `shift`, in the measure of the density.
     pub fn own_move(&self) -> f64 {
-        self.unfolded().zip(&self.weights).map(|(spoke, &weight)| weight * spoke).sum::<DVec2>().length()
+        let by_weights: DVec2 = self.unfolded().zip(&self.weights).map(|(spoke, &weight)| weight * spoke).sum();
+        (by_weights.length() + self.shift.length()) * self.metric.scale
     }
 
-    /// Leaves the centroid of the Voronoi cell in `weights`.
+    /// Leaves the way to the centroid of the Voronoi cell: by area in `weights`, by mass in `shift`.
     pub fn find_centroid(&mut self) {
+        if let Some(centroid) = self.metric.centroid {
+            self.shift = centroid;
+            return;
+        }
         let n = self.n_spokes();
         self.weights.clear();
         self.weights.resize(n, 0.0);

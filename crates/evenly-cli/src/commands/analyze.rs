@@ -1,5 +1,6 @@
 //! `evenly analyze`: the proof.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context as _, bail};
@@ -23,18 +24,24 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     if args.local && !args.spectrum && plot.is_none() {
         bail!("--local is for --spectrum and --plot");
     }
-    input::require_one_stdin(&args.inputs)?;
-    let sets: Vec<PointSet> = args.inputs.iter().map(|path| input::read_and_tell(path, space)).collect::<anyhow::Result<_>>()?;
+    if args.density.is_given() && args.inputs.len() > 1 && (args.spectrum || plot.is_some()) {
+        bail!("--density with --spectrum or --plot is for one set");
+    }
+    input::require_one_stdin(args.inputs.iter().chain(args.density.path()))?;
+    let density = args.density.density()?;
+    let read = |path: &PathBuf| Ok(input::read_and_tell(path, space)?.with_density(&density));
+    let sets: Vec<PointSet> = args.inputs.iter().map(read).collect::<anyhow::Result<_>>()?;
+    let is_local = args.local || args.density.is_given();
     let pool = session::pool(args.measured.threads)?;
     let names = || args.inputs.iter().map(|path| path.display().to_string());
     let measured = names().zip(&sets).map(|(name, points)| Ok((name.clone(), pool.install(|| measure(points)).context(name)?)));
     let measured: Vec<(String, Measures)> = measured.collect::<anyhow::Result<_>>()?;
     let parts: Vec<Draw> = args.draw.iter().map(|&part| part.into()).collect();
-    let spectrum = if args.spectrum { Some(pool.install(|| Spectrum::of(&sets, args.local))) } else { None };
+    let spectrum = if args.spectrum { Some(pool.install(|| Spectrum::of(&sets, is_local))) } else { None };
     let spectrum = spectrum.transpose().with_context(|| names().collect::<Vec<_>>().join(", "))?;
     if let Some(plot) = &plot {
         let (radial, power) = (spectrum.as_ref().map(|s| &s.radial), spectrum.as_ref().and_then(|s| s.power.as_ref()));
-        let subject = Subject { sets: &sets, name: &title(args), is_local: args.local, most_points: None, radial, power };
+        let subject = Subject { sets: &sets, name: &title(args), is_local, most_points: None, radial, power };
         pool.install(|| write_figure(&subject, &parts, &record::recipe(None), plot)).with_context(|| plot.name())?;
     }
     let found = Found { measured, spectrum };

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use anyhow::bail;
 use clap::ArgMatches;
-use evenly::{CancelToken, Outcome, PointSet, PoissonDiskParams, RunContext, Space, measure, poisson_disk};
+use evenly::{CancelToken, Density, Outcome, PointSet, PoissonDiskParams, RunContext, Space, measure, poisson_disk};
 use evenly_io::{Draw, Subject, Target, figure};
 
 use crate::args::Compare;
@@ -119,7 +119,7 @@ impl Runner<'_> {
         let optimizer = self.args.optimizer.optimizer(method, seed)?;
         let mut points = match (&optimizer, &self.given) {
             (Some(_), Some(given)) => given.clone(),
-            (Some(_), None) => begin(self.start, self.space, self.n_points, seed)?,
+            (Some(_), None) => begin(self.start, self.space, &Density::uniform(), self.n_points, seed)?,
             (None, _) => PointSet::new(self.space, Vec::new())?,
         };
         let clock = Instant::now();
@@ -138,7 +138,7 @@ impl Runner<'_> {
                 let params = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&self.space, self.n_points) };
                 points = poisson_disk(self.space, &params)?;
             }
-            None => points = begin(method, self.space, self.n_points, seed)?,
+            None => points = begin(method, self.space, &Density::uniform(), self.n_points, seed)?,
         }
         let seconds = clock.elapsed().as_secs_f64();
         if report.as_ref().is_some_and(|report| report.outcome == Outcome::Cancelled) {

@@ -15,16 +15,20 @@ pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, Some(args.seed))?;
+    let begin = args.start.unwrap_or(args.method.default_start());
+    if args.density.is_given() && optimizer.is_some() {
+        begin.require_density()?;
+    }
+    let density = session.time("read", || args.density.density())?;
     match optimizer {
         Some(optimizer) => {
             let n_points = args.n_points.context("--n-points is missing: how many?")?;
-            let begin = args.start.unwrap_or(args.method.default_start());
-            let points = session.time("start", || start(begin, space, n_points, args.seed))?;
+            let points = session.time("start", || start(begin, space, &density, n_points, args.seed))?;
             // Only white noise has long density waves.
             session.optimize(points, args.method, optimizer, begin == Method::White && !args.optimizer.no_warp)
         }
         None => {
-            let (points, note) = session.time("start", || args.starts.make(args.method, space, args.n_points, args.seed))?;
+            let (points, note) = session.time("start", || args.starts.make(args.method, space, &density, args.n_points, args.seed))?;
             if let Some(note) = note {
                 session.note(note);
             }

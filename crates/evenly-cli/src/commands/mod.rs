@@ -7,4 +7,5 @@ pub mod generate;
 pub mod optimize;
 pub mod reproduce;
 pub mod shell;
+pub mod stipple;
 pub mod zoneplate;

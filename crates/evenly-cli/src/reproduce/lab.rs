@@ -4,8 +4,8 @@ use std::fmt::{Display, Formatter};
 use std::time::Instant;
 
 use evenly::{
-    CancelToken, Error, Measures, Outcome, PointSet, PoissonDiskParams, PowerSpectrum, RadialSpectrum, Report, RunContext, Space, Torus,
-    measure, poisson_disk, power_spectrum, radial_spectrum,
+    CancelToken, Density, Error, Measures, Outcome, PointSet, PoissonDiskParams, PowerSpectrum, RadialSpectrum, Report, RunContext, Space,
+    Torus, measure, poisson_disk, power_spectrum, radial_spectrum,
 };
 use evenly_io::{Draw, Subject, figure};
 use indicatif::ProgressBar;
@@ -99,7 +99,7 @@ impl Lab {
         self.bar.set_message(format!("{}, {n_points} points", recipe.name));
         let clock = Instant::now();
         let mut points = match recipe.start {
-            Start::Exact(method) => start(method, space, n_points, seed)?,
+            Start::Exact(method) => start(method, space, &Density::uniform(), n_points, seed)?,
             Start::Maximal(beta) => maximal(&space, n_points, beta, seed)?,
         };
         let start_seconds = clock.elapsed().as_secs_f64();

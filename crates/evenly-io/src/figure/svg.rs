@@ -8,7 +8,7 @@ use base64::Engine as _;
 pub(crate) const FONT: &str = "DejaVu Sans";
 
 /// Prints a length with four digits after the point at most: finer than any printer, and exact to a ten-thousandth of a unit.
-pub(super) struct Short(pub f64);
+pub(crate) struct Short(pub f64);
 
 impl Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -30,6 +30,16 @@ pub(super) fn drawing(size: [f64; 2], recipe: &str, body: &str) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"{FONT}, sans-serif\">\n\
          <desc>{}</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
+        escaped(recipe)
+    )
+}
+
+/// A page of this size in millimetres, which are its units, with what is in it.
+pub(crate) fn sheet(size_mm: [f64; 2], recipe: &str, body: &str) -> String {
+    let [width, height] = size_mm.map(Short);
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
+         width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {width} {height}\">\n<desc>{}</desc>\n{body}</svg>\n",
         escaped(recipe)
     )
 }

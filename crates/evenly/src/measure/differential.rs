@@ -19,7 +19,7 @@ use crate::points::PointSet;
 /// What [`radial_spectrum`](crate::radial_spectrum) finds, of a set whose density varies. The distances from each point are taken in its own spacing, in input units; points
 /// count that have room for eight of theirs, or as many as half of the points have room for.
 ///
-/// The spacing is 1 / sqrt(density); [`local_spacings`] guesses it where it is not known.
+/// The spacing is 1 / sqrt(density); [`local_spacings`] has it, or guesses it where the density is not known.
 ///
 /// # Errors
 /// [`Error::Degenerate`] as for [`radial_spectrum`](crate::radial_spectrum); [`Error::InvalidParameter`] if there is not one spacing a point, positive and finite.
@@ -53,14 +53,20 @@ pub fn differential_spectrum(points: &PointSet, spacings: &[f64]) -> Result<Radi
     Ok(RadialSpectrum::of(1, correlation))
 }
 
-/// A guess at each point's own spacing, 1 / sqrt(density), in input units: from the disks with 32 to 64 neighbours, or, of few points, up to half of them. It is good to some
+/// Each point's own spacing, 1 / sqrt(density), in input units: as the density that the set keeps has it, at most thirty times the mean; or else a guess from the disks with 32 to 64 neighbours, or, of few points, up to half of them. It is good to some
 /// hundredths where the density is even over so many, and too large at a rectangle's border.
 ///
 /// # Errors
 /// [`Error::Degenerate`] for fewer than three points, a torus too narrow for them, or so many in one place that they have no distance.
 pub fn local_spacings(points: &PointSet) -> Result<Vec<f64>, Error> {
     const NEIGHBOURS: usize = 64;
+    /// Of the mean density: less makes no spacing.
+    const LEAST: f64 = 1e-3;
     let (domain, positions) = points.normalized();
+    if let Some(field) = points.field(&domain) {
+        let mean = points.hex_spacing() * 0.75f64.sqrt().sqrt();
+        return Ok(positions.iter().map(|&place| mean / field.at(place).max(LEAST).sqrt()).collect());
+    }
     if positions.len() < 3 {
         return Err(Error::Degenerate("a spacing takes three points or more".into()));
     }

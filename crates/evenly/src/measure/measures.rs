@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::distinct::Distinct;
 use super::star::{StarMeasures, StarReader};
 use super::triangles;
+use super::weighted::{Weighted, density_error, weigh};
 use crate::error::Error;
 use crate::points::PointSet;
 
@@ -15,6 +16,9 @@ use crate::points::PointSet;
 ///
 /// In a rectangle Voronoi cells are clipped to the domain, triangles are the dual of the clipped diagram,
 /// and the measures of order and the valences leave out vertices whose cell reaches the border. Angles are NaN where there is no triangle.
+///
+/// Where the density varies, distances, the coverage radius and capacities are measured in it: lengths are integrals of its root along segments, from a point to its Delaunay
+/// neighbours and, the mean of three, from a triangle's corners to its circumcentre; areas are integrals of the density itself. Its mean is 1. Angles are what they are.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measures {
     /// How many points there are.
@@ -43,7 +47,7 @@ pub struct Measures {
     /// Largest deviation of a Voronoi cell's area from the mean.
     pub capacity_max_deviation: f64,
     /// The energy of centroidal Voronoi tessellations: the sum over the cells of the squared distance to their point, integrated; relative to that of
-    /// the hexagonal lattice, which has the least.
+    /// the hexagonal lattice, which has the least. NaN where the density varies.
     pub cvt_energy: f64,
     /// Root mean square deviation of the triangles' angles from 60 degrees (Papazov and Hege, equation 7).
     pub angle_rms_deg: f64,
@@ -57,6 +61,10 @@ pub struct Measures {
     pub obtuse_fraction: f64,
     /// How many vertices have each number of neighbours.
     pub valence: BTreeMap<usize, usize>,
+    /// Where the density varies, how far the number of points in cells of equal mass, a hundred points' worth each, is from what it should be: relative, root mean
+    /// square. `None` below 150 points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density_error: Option<f64>,
     /// What only a bounded domain has.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub border: Option<BorderMeasures>,
@@ -125,6 +133,15 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         sums.merge(part);
     }
 
+    let field = points.field(&domain);
+    let mut cvt_energy = sums.second_moment / (HEXAGON * n_distinct as f64 * mean_capacity * mean_capacity);
+    if let Some(field) = &field {
+        let weighted = weigh(&domain, field, &triangulation.positions[..n_distinct], spacing)?;
+        sums.take(&weighted, spacing, &is_shared);
+        cvt_energy = f64::NAN;
+    }
+    let density_error = field.and_then(|field| density_error(&domain, &field, points.normalized().1));
+
     let triangles = triangles::measure(&triangulation);
     let n_inner = (sums.n_inner as f64).max(1.0);
     let min_distance = if coincident_points > 0 { 0.0 } else { sums.min_distance / spacing };
@@ -142,13 +159,14 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         bond_order_global: sums.bond[0].hypot(sums.bond[1]) / n_inner,
         capacity_sd: (sums.capacity_squares / n_distinct as f64).sqrt(),
         capacity_max_deviation: sums.capacity_deviation,
-        cvt_energy: sums.second_moment / (HEXAGON * n_distinct as f64 * mean_capacity * mean_capacity),
+        cvt_energy,
         angle_rms_deg: triangles.all.angle_rms_deg(),
         triangle_quality: triangles.all.quality(),
         min_angle_deg: triangles.all.min_angle_deg(),
         max_angle_deg: triangles.all.max_angle_deg(),
         obtuse_fraction: triangles.all.obtuse_fraction(),
         valence: sums.valence,
+        density_error,
         border: (!triangulation.domain.is_periodic).then(|| BorderMeasures {
             border_angle_rms_deg: triangles.border.angle_rms_deg(),
             interior_angle_rms_deg: triangles.interior.angle_rms_deg(),
@@ -177,6 +195,15 @@ impl Sums {
             self.bond[1] += star.bond.y;
             *self.valence.entry(star.valence).or_default() += 1;
         }
+    }
+
+    /// Takes what is measured in a density's own measure instead.
+    fn take(&mut self, weighted: &Weighted, spacing: f64, is_shared: &[bool]) {
+        self.min_distance = weighted.min_distance * spacing;
+        let alone = weighted.distances.iter().zip(is_shared).filter(|(_, is_shared)| !**is_shared);
+        self.distance = alone.map(|(distance, _)| distance * spacing).sum();
+        self.reach = weighted.coverage_radius * spacing;
+        (self.capacity_squares, self.capacity_deviation) = (weighted.capacity_squares, weighted.capacity_deviation);
     }
 
     fn merge(&mut self, other: &Self) {

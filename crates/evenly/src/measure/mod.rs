@@ -13,6 +13,7 @@ mod star;
 mod tessellation;
 mod triangles;
 mod voronoi;
+mod weighted;
 
 pub use differential::{differential_spectrum, local_spacings};
 pub use measures::{BorderMeasures, Measures, measure};

@@ -14,11 +14,12 @@ use glam::DVec2;
 use serde::Serialize;
 
 use self::lbfgs::{Memory, dot};
-use super::prepare::{keep_distinct, triangulated, validate_iterations};
+use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 use crate::space::Domain;
+use crate::star::Senses;
 use crate::triangulation::LiveMesh;
 
 /// What [`cvt`] can be told.
@@ -65,7 +66,7 @@ const LONGEST: f64 = 0.25;
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] as [`CvtParams::validate`] has it; [`Error::TooFine`] where f64 cannot tell the points apart;
-/// [`Error::Degenerate`] where they cannot be triangulated. The points are untouched then.
+/// [`Error::Degenerate`] where they cannot be triangulated; [`Error::InvalidParameter`] where the density varies. The points are untouched then.
 ///
 /// # Example
 /// ```
@@ -78,6 +79,7 @@ const LONGEST: f64 = 0.25;
 /// ```
 pub fn cvt(points: &mut PointSet, params: &CvtParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
+    require_uniform(points)?;
     let mut report = Report::new("cvt", points.n_points());
     let Some((domain, mut mesh)) = triangulated(points, &mut report, run)? else { return Ok(report) };
     let mut state = State::of(&mut mesh)?;
@@ -123,7 +125,7 @@ impl State {
     fn of(mesh: &mut LiveMesh) -> Result<Self, Error> {
         /// The energy of a cell of the hexagonal lattice: 5 / (24 sqrt(3)).
         const HEXAGON: f64 = 0.120_281_306_081_232_4;
-        let cells = mesh.look(|star, spokes| {
+        let cells = mesh.look(Senses::default(), |star, spokes| {
             star.find_centroid();
             let to_centroid: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
             let energy = star.second_moment();

@@ -15,7 +15,7 @@ use super::relax::relax;
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
-use crate::star::{Rule, Star};
+use crate::star::{Rule, Senses, Star};
 
 /// What [`distmesh`] can be told.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -77,11 +77,18 @@ struct Springs {
 }
 
 impl Rule for Springs {
+    fn senses(&self) -> Senses {
+        Senses { lengths: Some(self.length), ..Senses::default() }
+    }
+
     fn visit(&self, star: &mut Star) -> bool {
-        let Star { lengths, is_mirror, weights, .. } = &mut *star;
-        // There is no spring to a wall.
-        let push = |(&length, &is_mirror): (&f64, &bool)| if is_mirror { 0.0 } else { (self.length - length).max(0.0) / length };
-        weights.extend(lengths.iter().zip(&*is_mirror).map(push).map(|push| -self.step * push));
+        for k in 0..star.n_spokes() {
+            let stretch = star.stretch(k);
+            let missing = (self.length / stretch - star.lengths[k]).max(0.0);
+            // There is no spring to a wall.
+            let push = if star.is_mirror[k] { 0.0 } else { missing / star.lengths[k] };
+            star.weights.push(-self.step * push);
+        }
         star.own_move() > self.tolerance
     }
 }

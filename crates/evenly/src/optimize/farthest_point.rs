@@ -15,7 +15,7 @@ mod tournament;
 use serde::Serialize;
 
 use self::gaps::Gaps;
-use super::prepare::{keep_distinct, triangulated, validate_iterations};
+use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
 use super::targets::{ROUNDING, Targets, UnmetTarget, is_lost_to_rounding};
 use crate::error::Error;
 use crate::measure::Measures;
@@ -84,7 +84,7 @@ impl Targets for FarthestPointParams {
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] as [`FarthestPointParams::validate`] has it; [`Error::TooFine`] where f64 cannot tell the points apart;
-/// [`Error::Degenerate`] where they cannot be triangulated. The points are untouched then.
+/// [`Error::Degenerate`] where they cannot be triangulated; [`Error::InvalidParameter`] where the density varies. The points are untouched then.
 ///
 /// # Example
 /// ```
@@ -97,6 +97,7 @@ impl Targets for FarthestPointParams {
 /// ```
 pub fn farthest_point(points: &mut PointSet, params: &FarthestPointParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
+    require_uniform(points)?;
     let mut report = Report::new("farthest-point", points.n_points());
     let Some((domain, mesh)) = triangulated(points, &mut report, run)? else { return Ok(report) };
     let (n_points, spacing) = (points.n_points() as u32, mesh.spacing());

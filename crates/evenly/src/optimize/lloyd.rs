@@ -15,7 +15,7 @@ use super::relax::relax;
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
-use crate::star::{Rule, Star};
+use crate::star::{Rule, Senses, Star};
 
 /// What [`lloyd`] can be told.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -77,6 +77,10 @@ struct ToCentroid {
 }
 
 impl Rule for ToCentroid {
+    fn senses(&self) -> Senses {
+        Senses { centroid: true, ..Senses::default() }
+    }
+
     fn visit(&self, star: &mut Star) -> bool {
         star.find_centroid();
         star.own_move() > self.tolerance

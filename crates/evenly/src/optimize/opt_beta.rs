@@ -18,7 +18,7 @@ use serde::Serialize;
 
 use self::local_ratio::local_ratio;
 use self::nelder_mead::minimize;
-use super::prepare::{keep_distinct, triangulated, validate_iterations};
+use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
 use super::targets::{Targets, UnmetTarget, beta_miss, is_lost_to_rounding, unmet_beta, validate_beta};
 use crate::error::Error;
 use crate::measure::Measures;
@@ -84,7 +84,7 @@ impl Targets for OptBetaParams {
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] as [`OptBetaParams::validate`] has it; [`Error::TooFine`] where f64 cannot tell the points apart;
-/// [`Error::Degenerate`] where they cannot be triangulated. The points are untouched then.
+/// [`Error::Degenerate`] where they cannot be triangulated; [`Error::InvalidParameter`] where the density varies. The points are untouched then.
 ///
 /// # Example
 /// ```
@@ -97,6 +97,7 @@ impl Targets for OptBetaParams {
 /// ```
 pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
+    require_uniform(points)?;
     let mut report = Report::new("opt-beta", points.n_points());
     let Some((domain, mesh)) = triangulated(points, &mut report, run)? else { return Ok(report) };
     let mut sweep = Sweep::new(mesh);

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::density::Field;
 use crate::error::Error;
 use crate::points::{PointSet, make_distinct, separate};
 use crate::run::{Phase, Report, RunContext};
@@ -17,6 +18,8 @@ pub(super) struct Prepared {
     pub positions: Vec<DVec2>,
     /// The caller's index of each.
     pub order: Vec<u32>,
+    /// The density, where it varies.
+    pub field: Option<Field>,
 }
 
 /// Separates what coincides or lies on one line, and says so in the report; `None` for fewer than three points, which stay.
@@ -37,7 +40,8 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
     report.was_collinear = separated.was_collinear;
     let order = separated.order;
     let positions = order.iter().map(|&index| positions[index as usize]).collect();
-    Ok(Some(Prepared { domain, spacing, positions, order }))
+    let field = points.field(&domain);
+    Ok(Some(Prepared { domain, spacing, positions, order, field }))
 }
 
 /// Distinct points, and a mesh of them that is ready for moves; `None` for fewer than three points, which stay.
@@ -45,12 +49,22 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
 /// # Errors
 /// As [`prepare`]; [`Error::Degenerate`] where they cannot be triangulated.
 pub(super) fn triangulated(points: &PointSet, report: &mut Report, run: &mut RunContext) -> Result<Option<(Domain, LiveMesh)>, Error> {
-    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, report, run)? else { return Ok(None) };
+    let Some(Prepared { domain, spacing, positions, order, field }) = prepare(points, report, run)? else { return Ok(None) };
     run.enter(Phase::Triangulate);
-    let mesh = LiveMesh::new(&domain, positions, order, spacing)?;
+    let mesh = LiveMesh::new(&domain, field, positions, order, spacing)?;
     report.triangulations = 1;
     run.enter(Phase::Optimize);
     Ok(Some((domain, mesh)))
+}
+
+/// # Errors
+/// [`Error::InvalidParameter`] where the density varies.
+pub(super) fn require_uniform(points: &PointSet) -> Result<(), Error> {
+    if !points.density().is_uniform() {
+        let expected = "uniform for opt-beta, cvt and farthest-point, which go by distances alone";
+        return Err(Error::InvalidParameter { name: "density", value: "varying".into(), expected });
+    }
+    Ok(())
 }
 
 /// # Errors

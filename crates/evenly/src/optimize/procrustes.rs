@@ -12,6 +12,8 @@
 //! - In a rectangle the border is sampled first: corners and evenly spaced points slide along it, and while they find their
 //!   place the triangulation is built anew, so that the triangles cover the whole domain.
 //!
+//! - Where the density varies, a triangle's model is as large as the density at its centroid wants it (the paper's future work). The energy may then rise.
+//!
 //! Cost: O(n) an iteration, the number of iterations does not grow with n. It promises no smallest distance and no regularity.
 
 mod border;
@@ -22,7 +24,9 @@ mod model;
 use serde::Serialize;
 
 use self::mesh::Mesh;
+use self::model::Sides;
 use super::prepare::{Prepared, prepare};
+use crate::density::SoftField;
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
@@ -85,6 +89,8 @@ const MOMENTUM: f64 = 0.7;
 const ALWAYS_FLIP: usize = 8;
 /// Larger sides would throw points further than a period.
 const LARGEST_SIDE: f64 = 8.0;
+/// The side of cells over which the density is averaged, in hexagonal spacings: what is finer is noise to triangles.
+const SOFTNESS: f64 = 0.5;
 /// Sides within which the quality holds.
 const GOOD_SIDES: std::ops::RangeInclusive<f64> = 1.0..=1.625;
 /// Changes of the energy below this are rounding: a set at rest sways by them.
@@ -118,7 +124,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     }
 
     // Preprocessing: distinct points, and their Delaunay triangulation.
-    let Some(Prepared { domain, spacing, positions, order }) = prepare(points, &mut report, run)? else { return Ok(report) };
+    let Some(Prepared { domain, spacing, positions, order, field }) = prepare(points, &mut report, run)? else { return Ok(report) };
     run.enter(Phase::Triangulate);
     let mut triangulation = delaunay(&domain, positions, order)?;
     report.triangulations = 1;
@@ -131,13 +137,18 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         report.triangulations += 1;
     }
     run.enter(Phase::Optimize);
-    let mut mesh = Mesh::new(triangulation, params.side * spacing);
+    let sides = Sides {
+        mean: params.side * spacing,
+        longest: LARGEST_SIDE * spacing,
+        field: field.map(|field| SoftField::new(&field, &domain, SOFTNESS * spacing)),
+    };
+    let mut mesh = Mesh::new(triangulation, sides);
 
     // Step 1, match.
     let mut energy = mesh.flip_and_match(false).energy / mesh.area();
     report.energy.push(energy);
     report.outcome = Outcome::IterationLimit;
-    let mut decay = Decay::new(params);
+    let mut decay = Decay::new(params, !points.density().is_uniform());
     while report.iterations < params.max_iterations {
         if run.is_cancelled() {
             report.outcome = Outcome::Cancelled;
@@ -191,11 +202,19 @@ struct Decay {
     gains: [f64; 4],
     largest: f64,
     fraction: f64,
+    /// Where the density varies, how far the energy is above its lowest, and how many iterations ago it was clearly lower than ever before.
+    is_varying: bool,
+    above_lowest: f64,
+    n_idle: usize,
 }
 
+/// Where models change size with each move the energy may sway for ever: a run has settled that has found nothing lower in so many iterations.
+const IDLE: usize = 16;
+
 impl Decay {
-    fn new(params: &ProcrustesParams) -> Self {
-        Self { params: *params, gains: [f64::INFINITY; 4], largest: params.tolerance, fraction: 0.0 }
+    fn new(params: &ProcrustesParams, is_varying: bool) -> Self {
+        let gains = [f64::INFINITY; 4];
+        Self { params: *params, gains, largest: params.tolerance, fraction: 0.0, is_varying, above_lowest: 0.0, n_idle: 0 }
     }
 
     /// Takes what an iteration has gained.
@@ -203,6 +222,11 @@ impl Decay {
         let [a, b, c, _] = self.gains;
         self.gains = [gain, a, b, c];
         self.largest = self.largest.max(gain.abs());
+        self.above_lowest -= gain;
+        self.n_idle += 1;
+        if self.above_lowest < -self.params.tolerance {
+            (self.above_lowest, self.n_idle) = (0.0, 0);
+        }
         self.fraction = self.fraction.max(self.estimate());
     }
 
@@ -225,6 +249,7 @@ impl Decay {
     /// Whether the last iteration has gained too little to go on; with momentum the last two, since its energy sways.
     fn has_settled(&self) -> bool {
         let n = if self.params.mode == Mode::Paper { 1 } else { 2 };
-        self.gains[..n].iter().all(|gain| (0.0..self.params.tolerance).contains(gain))
+        let is_idle = self.is_varying && self.n_idle >= IDLE;
+        is_idle || self.gains[..n].iter().all(|gain| (0.0..self.params.tolerance).contains(gain))
     }
 }

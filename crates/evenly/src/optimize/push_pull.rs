@@ -319,9 +319,11 @@ fn settle(
     sweep.run(&rule, &Plan { ends_if_diverging: false, ..*plan }, run, report)
 }
 
-/// Of the start and some states, that which misses a target by least, and its measures.
+/// Of the start and some states, that which misses a target by least, and its measures. Where the density varies the start is none of them: one spot where targets cannot be
+/// met, as where a picture's edge is sharp, would speak for it.
 fn nearest_to_targets(start: &PointSet, params: &PushPullParams, states: Vec<PointSet>) -> (PointSet, Option<Measures>) {
-    let measured = states.into_iter().chain([start.clone()]).map(|points| {
+    let is_candidate = start.density().is_uniform() || states.is_empty();
+    let measured = states.into_iter().chain(is_candidate.then(|| start.clone())).map(|points| {
         let measures = measure(&points).ok();
         (points, measures)
     });

@@ -4,6 +4,7 @@
 //! constants. What is left stands in the paper's progressive order: the first half, the first quarter and so on are spread evenly too.
 //!
 //! What differs from the paper: points are found in bins, not in a kd-tree; in a domain that is narrower than the spacing, distances are those of a row.
+//! Where the density varies, so do the radii: two points matter to each other within the smaller of theirs.
 //! Cost: O(m log m) for m points that are a fixed multiple of n, and about evenly spread; more of them have more neighbours.
 
 use std::collections::BinaryHeap;
@@ -13,6 +14,8 @@ use glam::DVec2;
 use super::bins::Bins;
 use super::order::hilbert_order;
 use super::point_set::PointSet;
+use super::radius_bins::{RadiusBins, bins_for, radius};
+use crate::density::Field;
 use crate::error::Error;
 use crate::space::Domain;
 
@@ -49,32 +52,35 @@ pub fn eliminate(candidates: &PointSet, n_points: usize) -> Result<PointSet, Err
     }
     let (domain, places) = candidates.normalized();
     let mut left = hilbert_order(&places, domain.size);
-    let _ = thin(&domain, &places, &mut left, n_points);
+    let field = candidates.field(&domain);
+    let thin = |left: &mut Vec<u32>, n_points: usize| thin(&domain, field.as_ref(), &places, left, n_points);
+    let _ = thin(&mut left, n_points);
     // From the last place to the first: half of what is left goes, and stands behind what stays.
     let mut order = Vec::with_capacity(n_points);
     while left.len() > 1 {
         let n_half = left.len() / 2;
-        order.extend(thin(&domain, &places, &mut left, n_half));
+        order.extend(thin(&mut left, n_half));
     }
     order.extend(left);
     let positions = order.iter().rev().map(|&index| candidates.positions()[index as usize]).collect();
-    PointSet::new(*candidates.space(), positions)
+    Ok(PointSet::new(*candidates.space(), positions)?.with_density(candidates.density()))
 }
 
 /// Takes points out until `n_points` are left; returns them in the order in which they went.
-fn thin(domain: &Domain, places: &[DVec2], left: &mut Vec<u32>, n_points: usize) -> Vec<u32> {
+fn thin(domain: &Domain, field: Option<&Field>, places: &[DVec2], left: &mut Vec<u32>, n_points: usize) -> Vec<u32> {
     // Twice the paper's r_max and r_min. A row of points has another spacing, and room enough to need no r_min.
     let (spacing, of_row) = (domain.hex_spacing(n_points), domain.size.max_element() / n_points as f64);
     let farthest = spacing.max(of_row);
     let nearest = if of_row > spacing { 0.0 } else { farthest * (1.0 - (n_points as f64 / left.len() as f64).powf(GAMMA)) * BETA };
-    let mut bins = Bins::new(domain, farthest);
-    left.iter().for_each(|&index| bins.push(places[index as usize]));
-    let weight =
-        |squared: f64| if squared < farthest * farthest { (1.0 - squared.sqrt().max(nearest) / farthest).powi(ALPHA) } else { 0.0 };
-    let near = |k: u32| bins.near(bins.places()[k as usize]).filter(move |&(other, _)| other != k);
+    let nearest = nearest / farthest;
+    let weight = |distance: f64| (1.0 - distance.max(nearest)).powi(ALPHA);
+    let crowd = Crowd::new(domain, field, left.iter().map(|&index| places[index as usize]), farthest);
 
     let mut is_left = vec![true; left.len()];
-    let mut weights: Vec<f64> = (0..left.len() as u32).map(|k| near(k).map(|(_, way)| weight(way.length_squared())).sum()).collect();
+    let mut weights = vec![0.0; left.len()];
+    for (k, sum) in (0..).zip(&mut weights) {
+        crowd.each_near(k, |_, distance| *sum += weight(distance));
+    }
     // Weights only fall, so what is on top with a weight that is not its own any more goes back down.
     // Equal weights go in no order of place.
     let key = |weight: f64, k: u32| ((weight.max(0.0) + 0.0).to_bits(), k.wrapping_mul(SPREAD), k);
@@ -91,9 +97,7 @@ fn thin(domain: &Domain, places: &[DVec2], left: &mut Vec<u32>, n_points: usize)
         }
         is_left[k as usize] = false;
         gone.push(left[k as usize]);
-        for (other, way) in near(k) {
-            weights[other as usize] -= weight(way.length_squared());
-        }
+        crowd.each_near(k, |other, distance| weights[other as usize] -= weight(distance));
     }
     let mut k = 0;
     left.retain(|_| {
@@ -101,4 +105,41 @@ fn thin(domain: &Domain, places: &[DVec2], left: &mut Vec<u32>, n_points: usize)
         is_left[k - 1]
     });
     gone
+}
+
+/// Candidates, and who of them is near to whom.
+enum Crowd {
+    Even(Bins, f64),
+    Varying(RadiusBins, Vec<(DVec2, f64)>),
+}
+
+impl Crowd {
+    /// Candidates matter to each other that are nearer than `farthest`, times what the density makes of it.
+    fn new(domain: &Domain, field: Option<&Field>, places: impl Iterator<Item = DVec2>, farthest: f64) -> Self {
+        let Some(field) = field else {
+            let mut bins = Bins::new(domain, farthest);
+            places.for_each(|place| bins.push(place));
+            return Self::Even(bins, farthest);
+        };
+        let mut bins = bins_for(domain, farthest);
+        let disks: Vec<(DVec2, f64)> = places.map(|place| (place, radius(field, place, farthest))).collect();
+        disks.iter().for_each(|&(place, radius)| bins.push(place, radius));
+        Self::Varying(bins, disks)
+    }
+
+    /// Calls with each candidate near to candidate `k`, and the distance relative to the farthest that matters.
+    fn each_near(&self, k: u32, mut call: impl FnMut(u32, f64)) {
+        match self {
+            Self::Even(bins, farthest) => {
+                let ways = bins.near(bins.places()[k as usize]).filter(|&(other, _)| other != k);
+                let distances = ways.map(|(other, way)| (other, way.length_squared()));
+                let near = distances.filter(|(_, squared)| *squared < farthest * farthest);
+                near.for_each(|(other, squared)| call(other, squared.sqrt() / farthest));
+            }
+            Self::Varying(bins, disks) => {
+                let (place, radius) = disks[k as usize];
+                bins.near(place, radius).filter(|&(other, _)| other != k).for_each(|(other, distance)| call(other, distance));
+            }
+        }
+    }
 }

@@ -3,16 +3,18 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use crate::density::{Density, Field};
 use crate::error::Error;
 use crate::space::{Domain, Space};
 
 /// The largest number of points: half-edges are counted in 32 bits, also on a finite cover of a torus.
 pub const MAX_POINTS: usize = 40_000_000;
 
-/// Points and the domain they live in; all finite, all inside.
+/// Points, the domain they live in, and the density that is wanted there; all finite, all inside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointSet {
     space: Space,
+    density: Density,
     positions: Vec<[f64; 2]>,
 }
 
@@ -46,7 +48,18 @@ impl PointSet {
                 return Err(Error::OutsideDomain { index, point: at, domain: space.to_string() });
             }
         }
-        Ok(Self { space, positions })
+        Ok(Self { space, density: Density::uniform(), positions })
+    }
+
+    /// The same points where another density is wanted: methods and measures will go by it. Uniform at first.
+    #[must_use]
+    pub fn with_density(self, density: &Density) -> Self {
+        Self { density: density.clone(), ..self }
+    }
+
+    /// The density that is wanted.
+    pub fn density(&self) -> &Density {
+        &self.density
     }
 
     /// The domain.
@@ -79,14 +92,20 @@ impl PointSet {
     /// A set of points that lie in the normalised domain by construction.
     pub(crate) fn from_normalized(space: Space, positions: impl Iterator<Item = DVec2>) -> Self {
         let domain = space.domain();
-        Self { space, positions: positions.map(|q| domain.restore(domain.land(q))).collect() }
+        Self { space, density: Density::uniform(), positions: positions.map(|q| domain.restore(domain.land(q))).collect() }
     }
 
-    /// Moves point `order[k]` to `positions[k]`.
+    /// Moves point `order[k]` to `positions[k]`, or to the nearest place where the density is not 0.
     pub(crate) fn place(&mut self, domain: &Domain, order: &[u32], positions: &[DVec2]) {
+        let field = self.field(domain);
         for (&index, &q) in order.iter().zip(positions) {
-            self.positions[index as usize] = domain.restore(q);
+            self.positions[index as usize] = domain.restore(field.as_ref().map_or(q, |field| field.settle(q)));
         }
+    }
+
+    /// The density in normalised coordinates, where it varies.
+    pub(crate) fn field(&self, domain: &Domain) -> Option<Field> {
+        self.density.field(domain)
     }
 
     /// The same set with point `order[k]` at `positions[k]`.

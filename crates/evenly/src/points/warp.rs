@@ -4,12 +4,15 @@
 //! Large parts are cut in their middle, so that even points stay where they are. The last sixteen points are divided by rank
 //! into cells of one point each: white noise becomes much like a jittered grid, but without its long order,
 //! which would outlive an optimiser as sharp peaks in the spectrum.
+//!
+//! Where a density is wanted, cells have a share of its mass in place of the area: points that follow it stay about where they are, and others come to.
 
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::point_set::PointSet;
 use super::random::Random;
+use crate::density::Field;
 
 /// Groups of up to this many points are divided by rank. More of them in a row would keep step like a grid.
 const BLOCK: usize = 16;
@@ -26,6 +29,22 @@ enum Cells {
 }
 
 type Indexed = (DVec2, u32);
+
+/// How a group is mapped.
+#[derive(Clone, Copy)]
+struct Plan<'a> {
+    cells: Cells,
+    /// The density that is wanted, where it varies.
+    field: Option<&'a Field>,
+}
+
+impl Plan<'_> {
+    /// Where a cell is to be cut so that this share of it lies below.
+    fn cut(self, cell: Cell, axis: usize, share: f64) -> f64 {
+        let by_area = || cell.low[axis] + share * cell.size()[axis];
+        self.field.map_or_else(by_area, |field| field.cut(cell.low, cell.high, axis, share))
+    }
+}
 
 /// A box.
 #[derive(Clone, Copy)]
@@ -48,7 +67,7 @@ impl Cell {
     }
 }
 
-/// Spreads the points' density evenly over the domain: every part gets area in proportion to its points. Fewer than three stay.
+/// Spreads the points evenly over the domain: every part gets area, or mass of the density that is wanted, in proportion to its points. Fewer than three stay.
 ///
 /// The last points get nearly square cells. An optimiser keeps some of their alignment: the main ring of the power spectrum is then 1.2 to
 /// 1.4 times as strong along the axes as on average. [`warp_isotropic`] prefers no direction.
@@ -66,22 +85,24 @@ fn warp_into(points: &mut PointSet, cells: Cells) {
         return;
     }
     let (domain, positions) = points.normalized();
+    let field = points.field(&domain);
+    let plan = Plan { cells, field: field.as_ref() };
     let mut indexed: Vec<Indexed> = positions.into_iter().zip(0..).collect();
     let cell = Cell { low: DVec2::ZERO, high: domain.size };
-    warp_group(&mut indexed, cells, cell, cell);
+    warp_group(&mut indexed, plan, cell, cell);
     let order: Vec<u32> = indexed.iter().map(|&(_, index)| index).collect();
     let moved: Vec<DVec2> = indexed.par_iter().map(|&(p, _)| domain.land(p)).collect();
     points.place(&domain, &order, &moved);
 }
 
 /// Maps the points of `source` onto `target`.
-fn warp_group(points: &mut [Indexed], cells: Cells, source: Cell, target: Cell) {
+fn warp_group(points: &mut [Indexed], plan: Plan, source: Cell, target: Cell) {
     let n = points.len();
     if let [(p, _)] = points {
         // A source without width holds coincident coordinates: its point goes to the middle.
         let share = (*p - source.low) / source.size();
         let share = DVec2::select(share.is_finite_mask(), share, DVec2::splat(0.5)).clamp(DVec2::ZERO, DVec2::ONE);
-        let jitter = if cells == Cells::Square { JITTER } else { 1.0 };
+        let jitter = if plan.cells == Cells::Square { JITTER } else { 1.0 };
         *p = target.low + (0.5 + jitter * (share - 0.5)) * target.size();
         return;
     }
@@ -90,15 +111,15 @@ fn warp_group(points: &mut [Indexed], cells: Cells, source: Cell, target: Cell) 
     }
     let axis = long_axis(source.size(), target.size());
     let (n_below, sources) = if n > BLOCK {
-        cut_in_the_middle(points, source, axis)
+        cut_in_the_middle(points, plan, source, axis)
     } else {
-        cut_by_rank(points, share_below(points, cells, target.size(), axis), source, axis)
+        cut_by_rank(points, share_below(points, plan.cells, target.size(), axis), source, axis)
     };
-    let border = target.low[axis] + n_below as f64 / n as f64 * target.size()[axis];
+    let border = plan.cut(target, axis, n_below as f64 / n as f64);
     let targets = target.parts(axis, border, border);
     let (below, above) = points.split_at_mut(n_below);
-    let mut lower = || warp_group(below, cells, sources[0], targets[0]);
-    let mut upper = || warp_group(above, cells, sources[1], targets[1]);
+    let mut lower = || warp_group(below, plan, sources[0], targets[0]);
+    let mut upper = || warp_group(above, plan, sources[1], targets[1]);
     if n > PARALLEL {
         rayon::join(lower, upper);
     } else {
@@ -122,8 +143,8 @@ fn select(points: &mut [Indexed], n_below: usize, axis: usize) -> [f64; 2] {
 }
 
 /// Divides a group at the middle of its source; where that leaves too few on one side, by rank, so that the depth is bounded.
-fn cut_in_the_middle(points: &mut [Indexed], source: Cell, axis: usize) -> (usize, [Cell; 2]) {
-    let middle = source.low[axis] + 0.5 * source.size()[axis];
+fn cut_in_the_middle(points: &mut [Indexed], plan: Plan, source: Cell, axis: usize) -> (usize, [Cell; 2]) {
+    let middle = plan.cut(source, axis, 0.5);
     let found = points.iter().filter(|(p, _)| p[axis] < middle).count();
     let n_below = found.clamp(points.len() / 4, points.len() - points.len() / 4);
     let [last_below, first_above] = select(points, n_below, axis);

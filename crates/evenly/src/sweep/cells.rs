@@ -105,7 +105,7 @@ mod tests {
         let (domain, positions) = white(space, n, 1).unwrap().normalized();
         let order = hilbert_order(&positions, domain.size);
         let sorted = order.iter().map(|&index| positions[index as usize]).collect();
-        let mut mesh = LiveMesh::new(&domain, sorted, order, domain.hex_spacing(n)).unwrap();
+        let mut mesh = LiveMesh::new(&domain, None, sorted, order, domain.hex_spacing(n)).unwrap();
         let cells = Cells::new(&mut mesh);
         (mesh, cells)
     }

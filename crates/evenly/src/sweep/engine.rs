@@ -205,7 +205,7 @@ impl Sweep {
 
     fn visit_all(&self, rule: &impl Rule, points: &[u32], territory: Territory, buffer: &mut StarBuffer) -> Work {
         let mut work = Work::default();
-        buffer.n_flips = 0;
+        (buffer.n_flips, buffer.senses) = (0, rule.senses());
         for &v in points {
             match visit(&self.mesh, rule, v, territory, buffer) {
                 Ok(unrest) => work.count(unrest),
@@ -217,8 +217,10 @@ impl Sweep {
     }
 
     fn keep_best(&mut self, work: &Work, pass: usize) {
-        // The longest move that was asked for is about the worst miss; but while points find their places, the rest counts as well.
-        let wrong = work.unrest.longest * work.unrest.squares.sqrt();
+        // The longest move that was asked for is about the worst miss; but while points find their places, the rest counts as well. Where the density varies
+        // the worst spot may be one where targets cannot be met: the rest alone counts.
+        let worst = if self.mesh.has_density() { work.unrest.squares.sqrt() } else { work.unrest.longest };
+        let wrong = worst * work.unrest.squares.sqrt();
         if wrong < BETTER * self.best.wrong || work.unrest.is_none() {
             self.best = Best { wrong, pass, places: self.mesh.points() };
         }
@@ -297,7 +299,7 @@ mod tests {
         let (domain, positions) = points.normalized();
         let order = hilbert_order(&positions, domain.size);
         let sorted = order.iter().map(|&index| positions[index as usize]).collect();
-        Sweep::new(LiveMesh::new(&domain, sorted, order, domain.hex_spacing(positions.len())).unwrap())
+        Sweep::new(LiveMesh::new(&domain, None, sorted, order, domain.hex_spacing(positions.len())).unwrap())
     }
 
     fn smooth(space: Space, schedule: Schedule, n_threads: usize) -> (PointSet, Report) {

@@ -17,19 +17,22 @@ pub(super) fn summed_pass(mesh: &mut LiveMesh, rule: &impl Rule) -> Work {
     // All edges are legal, so nothing is flipped while stars are read.
     let asked: Vec<(Work, Vec<(u32, DVec2)>)> = dirty
         .par_chunks(CHUNK)
-        .map_init(StarBuffer::default, |buffer, chunk| {
-            let (mut work, mut moves) = (Work::default(), Vec::new());
-            for &v in chunk {
-                // With everything free, nothing lies outside.
-                let unrest = ask(mesh, rule, v, Territory::EVERYTHING, buffer).unwrap_or_default();
-                if unrest.is_none() {
-                    mesh.clean(v);
+        .map_init(
+            || StarBuffer::sensing(rule.senses()),
+            |buffer, chunk| {
+                let (mut work, mut moves) = (Work::default(), Vec::new());
+                for &v in chunk {
+                    // With everything free, nothing lies outside.
+                    let unrest = ask(mesh, rule, v, Territory::EVERYTHING, buffer).unwrap_or_default();
+                    if unrest.is_none() {
+                        mesh.clean(v);
+                    }
+                    work.count(unrest);
+                    moves.extend_from_slice(&buffer.moves);
                 }
-                work.count(unrest);
-                moves.extend_from_slice(&buffer.moves);
-            }
-            (work, moves)
-        })
+                (work, moves)
+            },
+        )
         .collect();
     let mut sums = vec![DVec2::ZERO; mesh.n_points()];
     for (work, moves) in &asked {
@@ -39,7 +42,7 @@ pub(super) fn summed_pass(mesh: &mut LiveMesh, rule: &impl Rule) -> Work {
     let mut buffer = StarBuffer::default();
     for (point, by) in (0..).zip(sums).filter(|&(_, by)| by != DVec2::ZERO) {
         // Nor here: as far as it gets.
-        let _ = mesh.relocate(point, by.clamp_length_max(mesh.spacing()), Territory::EVERYTHING, &mut buffer);
+        let _ = mesh.relocate(point, by.clamp_length_max(mesh.local_spacing(point)), Territory::EVERYTHING, &mut buffer);
     }
     total.n_flips += buffer.n_flips;
     total

@@ -5,14 +5,16 @@ use glam::DVec2;
 use crate::star::Rule;
 use crate::triangulation::{LiveMesh, MIRROR, Outside, StarBuffer, Territory};
 
-/// Moves below this, in spacings, are not worth making.
+/// Moves below this, in local spacings, are not worth making.
 const STILL: f64 = 1e-9;
-/// The longest move, in spacings.
+/// The longest move, in local spacings.
 const LONGEST: f64 = 1.0;
+/// How far another point pushes one where the density varies, in the spacing of that which is pushed: however sparse it is around the other, it does not throw it about.
+const LONGEST_PUSH: f64 = 0.5;
 /// The part of its distance by which a neighbour may come nearer in one move: it does not run into the vertex, or through it.
 const NEARER: f64 = 0.75;
 
-/// The moves that a rule has asked for, in spacings.
+/// The moves that a rule has asked for, in local spacings.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Unrest {
     /// The sum of their squares; 0 if there is nothing wrong.
@@ -93,14 +95,19 @@ pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territo
     unrest.add_move(STILL);
     let mut own: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
     own += mesh.spacing() * star.shift;
+    // Where points are dense, the same way means more.
+    let scale = star.metric.scale;
+    let longest = LONGEST / scale;
     for (spoke, length) in spokes.iter().zip(&star.lengths) {
-        let change = (length - spoke.length).clamp(-LONGEST.min(NEARER * spoke.length), LONGEST);
-        if change.abs() <= STILL || spoke.length == 0.0 {
+        let point = mesh.point(spoke.vertex);
+        let is_pushed = mesh.has_density() && spoke.vertex != MIRROR;
+        let longest = if is_pushed { LONGEST_PUSH * mesh.local_spacing(point) / mesh.spacing() } else { longest };
+        let change = (length - spoke.length).clamp(-longest.min(NEARER * spoke.length), longest);
+        if change.abs() * scale <= STILL || spoke.length == 0.0 {
             continue;
         }
-        unrest.add_move(change.abs());
+        unrest.add_move(change.abs() * scale);
         let by = change / spoke.length * spoke.way;
-        let point = mesh.point(spoke.vertex);
         if spoke.vertex == MIRROR {
             // The image goes as far as the vertex, to the other side.
             own -= 0.5 * by;
@@ -108,10 +115,10 @@ pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territo
             moves.push((point, by));
         }
     }
-    let own_length = own.length() / mesh.spacing();
+    let own_length = own.length() / mesh.spacing() * scale;
     if own_length > STILL {
         unrest.add_move(own_length);
-        moves.push((v, own.clamp_length_max(LONGEST * mesh.spacing())));
+        moves.push((v, own.clamp_length_max(longest * mesh.spacing())));
     }
     Ok(unrest)
 }

@@ -10,6 +10,7 @@ use super::frame::{FRAME, framed};
 use super::half_edges::{BORDER, next};
 use super::mesh::Triangulation;
 use super::shared::{SharedMesh, Territory};
+use crate::density::Field;
 use crate::error::Error;
 use crate::predicates::is_in_circle;
 use crate::space::Domain;
@@ -27,11 +28,16 @@ pub(crate) struct LiveMesh {
     order: Vec<u32>,
     /// Vertices that move; those after them are the frame's.
     pub(super) n_live: u32,
-    /// The wanted spacing.
+    /// The wanted spacing, where the density varies its mean.
     pub(super) spacing: f64,
+    /// The density, where it varies.
+    pub(super) field: Option<Field>,
     /// Whether a point and its copies have gone different ways, or the cover has become too small.
     pub(super) is_torn: AtomicBool,
 }
+
+/// Densities below this part of the mean count as this much where a spacing comes of them.
+pub(super) const LEAST_DENSITY: f64 = 1e-6;
 
 /// A vertex outside the territory was needed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +45,7 @@ pub(crate) struct Outside;
 
 impl LiveMesh {
     /// The Delaunay triangulation of distinct points, given in Hilbert order. Stars will show lengths in units of `spacing`.
-    pub fn new(base: &Domain, points: Vec<DVec2>, order: Vec<u32>, spacing: f64) -> Result<Self, Error> {
+    pub fn new(base: &Domain, field: Option<Field>, points: Vec<DVec2>, order: Vec<u32>, spacing: f64) -> Result<Self, Error> {
         let triangulation = if base.is_periodic { delaunay(base, points, order)? } else { framed(base, points, order)? };
         let n_frame = if base.is_periodic { 0 } else { FRAME.len() };
         let Triangulation { half_edges, positions, domain, copies, order } = triangulation;
@@ -51,13 +57,14 @@ impl LiveMesh {
             order,
             n_live: (positions.len() - n_frame) as u32,
             spacing,
+            field,
             is_torn: AtomicBool::new(false),
         })
     }
 
     /// The same points, put at `places` and triangulated anew.
     pub fn rebuild(&mut self, places: Vec<DVec2>) -> Result<(), Error> {
-        *self = Self::new(&self.base, places, std::mem::take(&mut self.order), self.spacing)?;
+        *self = Self::new(&self.base, self.field.take(), places, std::mem::take(&mut self.order), self.spacing)?;
         Ok(())
     }
 
@@ -81,6 +88,16 @@ impl LiveMesh {
 
     pub fn spacing(&self) -> f64 {
         self.spacing
+    }
+
+    /// Whether a density varies.
+    pub fn has_density(&self) -> bool {
+        self.field.is_some()
+    }
+
+    /// The spacing that is wanted where a point is.
+    pub fn local_spacing(&self, point: u32) -> f64 {
+        self.field.as_ref().map_or(self.spacing, |field| self.spacing / field.at(self.position(point)).max(LEAST_DENSITY).sqrt())
     }
 
     pub fn position(&self, v: u32) -> DVec2 {

@@ -26,7 +26,7 @@ impl LiveMesh {
     pub fn relocate(&self, point: u32, by: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         debug_assert!(self.is_free(point, territory));
         let from = self.mesh.position(point);
-        let target = self.domain.land(from + by);
+        let target = self.land(from + by);
         self.go(point, target, territory, buffer)?;
         if self.is_cover() {
             // On the grid, so that copies move alike to the bit.
@@ -42,6 +42,12 @@ impl LiveMesh {
         Ok(())
     }
 
+    /// The place nearest to `q` where a point may stand.
+    fn land(&self, q: DVec2) -> DVec2 {
+        let place = self.domain.land(q);
+        self.field.as_ref().map_or(place, |field| self.domain.land(field.settle(place)))
+    }
+
     /// Moves a vertex to its target, or as far as it gets.
     fn go(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         if self.step(v, target, territory)? { Ok(()) } else { self.go_in_stages(v, target, territory, buffer) }
@@ -49,7 +55,8 @@ impl LiveMesh {
 
     /// Moves a vertex at once, if all triangles around keep some area.
     fn step(&self, v: u32, target: DVec2, territory: Territory) -> Result<bool, Outside> {
-        let room = ROOM * self.spacing * self.spacing;
+        let area = self.spacing * self.spacing;
+        let room = ROOM * self.field.as_ref().map_or(area, |field| area / field.at(target).max(1.0));
         let first = self.mesh.outgoing(v);
         let mut half_edge = first;
         let mut before = self.spoke(target, self.mesh.origin(next(first)));
@@ -114,7 +121,7 @@ mod tests {
         let spacing = domain.hex_spacing(n);
         let order = separate(&domain, &mut positions, spacing).order;
         let sorted = order.iter().map(|&index| positions[index as usize]).collect();
-        LiveMesh::new(&domain, sorted, order, spacing).unwrap()
+        LiveMesh::new(&domain, None, sorted, order, spacing).unwrap()
     }
 
     proptest! {

@@ -7,12 +7,13 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::half_edges::next;
-use super::live::{LiveMesh, Outside};
+use super::live::{LEAST_DENSITY, LiveMesh, Outside};
 use super::shared::Territory;
-use super::spoke::Spoke;
+use super::spoke::{MIRROR, Spoke};
 use super::walls::WallCell;
+use crate::density::Field;
 use crate::error::Error;
-use crate::star::{Star, Wall, Wedge};
+use crate::star::{Senses, Star, Wall, Wedge};
 
 /// The fewest points that a thread looks at in one go.
 const CHUNK: usize = 1 << 12;
@@ -23,6 +24,8 @@ const DOUBT: f64 = 1e-9;
 #[derive(Default)]
 pub(crate) struct StarBuffer {
     pub star: Star,
+    /// What is to be found of the density's measure.
+    pub senses: Senses,
     /// The star's spokes, as vectors.
     pub spokes: Vec<Spoke>,
     /// What a rule makes of the star: which points are to move, and by what.
@@ -34,6 +37,15 @@ pub(crate) struct StarBuffer {
     /// The vertices around one.
     near: Vec<u32>,
     wall_cell: WallCell,
+    /// The corners of a cell.
+    corners: Vec<DVec2>,
+}
+
+impl StarBuffer {
+    /// One that finds so much of the density's measure.
+    pub fn sensing(senses: Senses) -> Self {
+        Self { senses, ..Self::default() }
+    }
 }
 
 impl LiveMesh {
@@ -41,28 +53,34 @@ impl LiveMesh {
     pub fn read(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         self.restore(v, territory, &mut buffer.spokes, &mut buffer.n_flips)?;
         self.fill(v, buffer);
+        if let Some(field) = &self.field {
+            self.weigh(field, v, buffer);
+        }
         Ok(())
     }
 
     /// Looks at the stars of all points, in order.
-    pub fn look<T: Send>(&mut self, look: impl Fn(&mut Star, &[Spoke]) -> T + Sync) -> Result<Vec<T>, Error> {
+    pub fn look<T: Send>(&mut self, senses: Senses, look: impl Fn(&mut Star, &[Spoke]) -> T + Sync) -> Result<Vec<T>, Error> {
         self.legalize();
         if self.mend()? {
             self.legalize();
         }
         let mesh = &*self;
         let all = (0..self.n_points() as u32).into_par_iter().with_min_len(CHUNK);
-        let seen = all.map_init(StarBuffer::default, |buffer, v| {
-            // With everything free, nothing lies outside.
-            let _ = mesh.read(v, Territory::EVERYTHING, buffer);
-            look(&mut buffer.star, &buffer.spokes)
-        });
+        let seen = all.map_init(
+            || StarBuffer::sensing(senses),
+            |buffer, v| {
+                // With everything free, nothing lies outside.
+                let _ = mesh.read(v, Territory::EVERYTHING, buffer);
+                look(&mut buffer.star, &buffer.spokes)
+            },
+        );
         Ok(seen.collect())
     }
 
     /// The smallest distance of two points and the largest circumradius, in spacings.
     pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
-        let seen = self.look(|star, _| {
+        let seen = self.look(Senses::default(), |star, _| {
             let neighbours = star.lengths.iter().zip(&star.is_mirror).filter(|(_, is_mirror)| !**is_mirror);
             let nearest = neighbours.map(|(&length, _)| length).fold(f64::INFINITY, f64::min);
             [nearest, (0..star.n_spokes()).map(|k| star.circumradius(k)).fold(0.0, f64::max)]
@@ -192,6 +210,60 @@ impl LiveMesh {
     }
 }
 
+impl LiveMesh {
+    /// Finds what the star's lengths, radii and area are in the measure of the density.
+    fn weigh(&self, field: &Field, v: u32, buffer: &mut StarBuffer) {
+        let StarBuffer { star, spokes, senses, corners, .. } = buffer;
+        let at = self.mesh.position(v);
+        let n = star.n_spokes();
+        corners.clear();
+        corners.extend((0..n).map(|k| {
+            let [along_u, along_v] = star.centre(k);
+            along_u * spokes[k].way + along_v * spokes[star.after(k)].way
+        }));
+        let around = || spokes.iter().map(|spoke| spoke.way).chain(corners.iter().copied());
+        let (low, high) = (around().fold(DVec2::ZERO, DVec2::min), around().fold(DVec2::ZERO, DVec2::max));
+        let [least, most] = field.root_bounds(at + low, at + high);
+        if let Some(enough) = senses.lengths {
+            let stretch = |(spoke, &length): (&Spoke, &f64)| match spoke.vertex {
+                _ if length * least >= enough => least,
+                // The way to a mirror image is that to the wall, and back.
+                MIRROR => field.stretch(at, 0.5 * spoke.way),
+                _ => field.stretch_between(at, spoke.way),
+            };
+            star.metric.spokes.extend(spokes.iter().zip(&star.lengths).map(stretch));
+        }
+        if let Some(allowed) = senses.radii {
+            for (k, &centre) in corners.iter().enumerate() {
+                if star.circumradius(k) * most <= allowed {
+                    star.metric.radii.push(most);
+                    continue;
+                }
+                // On a wall it is shared with the neighbour alone, whose image sees what the neighbour sees.
+                let others = [&spokes[k], &spokes[star.after(k)]].into_iter().filter(|spoke| spoke.vertex != MIRROR);
+                let (mut sum, mut n) = (field.stretch(at, centre), 1.0);
+                for spoke in others {
+                    sum += field.stretch(at + spoke.way, centre - spoke.way);
+                    n += 1.0;
+                }
+                star.metric.radii.push(sum / n);
+            }
+        }
+        let unit = 1.0 / (self.spacing * self.spacing);
+        if senses.centroid {
+            let (mass, centroid) = field.centroid(at, corners);
+            (star.metric.mass, star.metric.centroid) = (Some(mass * unit), Some(centroid / self.spacing));
+        } else if senses.mass {
+            star.metric.mass = Some(field.mass(at, corners, &mut star.metric.sides) * unit);
+        }
+        let density = match star.metric.mass {
+            Some(mass) => mass / star.measure_cell(),
+            None => field.at(at),
+        };
+        star.metric.scale = density.max(LEAST_DENSITY).sqrt();
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -220,7 +292,7 @@ mod tests {
                 let (domain, positions) = points.normalized();
                 let order = hilbert_order(&positions, domain.size);
                 let sorted = order.iter().map(|&index| positions[index as usize]).collect();
-                let mesh = LiveMesh::new(&domain, sorted, order, domain.hex_spacing(n)).unwrap();
+                let mesh = LiveMesh::new(&domain, None, sorted, order, domain.hex_spacing(n)).unwrap();
                 let mean = 3f64.sqrt() / 2.0;
                 let (mut area, mut radius, mut distance, mut deviation) = (0.0, 0.0f64, f64::INFINITY, 0.0f64);
                 let mut buffer = StarBuffer::default();

@@ -220,7 +220,7 @@ mod tests {
             let spacing = domain.hex_spacing(n);
             let order = separate(&domain, &mut positions, spacing).order;
             let sorted = order.iter().map(|&index| positions[index as usize]).collect();
-            let mut mesh = LiveMesh::new(&domain, sorted, order, spacing).unwrap();
+            let mut mesh = LiveMesh::new(&domain, None, sorted, order, spacing).unwrap();
             let mut random = Random::new(seed, 5);
             for _ in 0..40 {
                 let mut work = Transplant::default();

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::model::{H, amplitude as fitted};
+use super::model::{H, Sides, amplitude as fitted};
 use crate::space::Domain;
 use crate::triangulation::{BORDER, Patch, prev};
 
@@ -10,8 +10,8 @@ use crate::triangulation::{BORDER, Patch, prev};
 pub(super) struct FlipRule<'a> {
     pub positions: &'a [DVec2],
     pub domain: &'a Domain,
-    /// Side of the model triangle.
-    pub side: f64,
+    /// Of the model triangle. All four that a flip concerns are compared with one, that of the middle of their corners.
+    pub sides: &'a Sides,
 }
 
 impl FlipRule<'_> {
@@ -53,10 +53,13 @@ impl FlipRule<'_> {
             return false;
         };
         let at = |i: usize| self.positions[patch.origin[i] as usize];
-        let kept = self.domain.spoke(at(i), at(j)).length_squared();
-        let other = self.domain.spoke(at(prev(i as u32) as usize), at(prev(j as u32) as usize)).length_squared();
+        let (p, apexes) = (at(i), [at(prev(i as u32) as usize), at(prev(j as u32) as usize)]);
+        let edge = self.domain.spoke(p, at(j));
+        let kept = edge.length_squared();
+        let other = self.domain.spoke(apexes[0], apexes[1]).length_squared();
         let (a, b) = (amplitude[i / 3], amplitude[j / 3]);
-        let c = H * self.side;
+        let middle = || p + 0.25 * (edge + apexes.iter().map(|&apex| self.domain.spoke(p, apex)).sum::<DVec2>());
+        let c = H * if self.sides.field.is_some() { self.sides.at(middle()) } else { self.sides.mean };
         let squares = a * a + b * b + other - kept;
         let needed = other - kept + 2.0 * c * (a + b);
         needed < 0.0 || needed * needed < 8.0 * c * c * squares
@@ -87,7 +90,7 @@ impl FlipRule<'_> {
         let at = |v: u32| self.positions[v as usize];
         let spoke = |v: u32| self.domain.spoke(at(p), at(v));
         let (pq, pr, ps) = (spoke(q), spoke(r), spoke(s));
-        let c = H * self.side;
+        let c = H * self.sides.at(at(p) + 0.25 * (pq + pr + ps));
         let (sq, sr) = (pq - ps, pr - ps);
         let (new_a, new_b) = (fitted(sq, sr), fitted(ps, pr));
         let excess = |a: f64, b: f64| (a - c) * (a - c) + (b - c) * (b - c);

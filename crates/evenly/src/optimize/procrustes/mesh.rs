@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::flips::FlipRule;
-use super::model::{amplitude, triangle_energy, ways_to_targets};
+use super::model::{Sides, amplitude, triangle_energy, ways_to_targets};
 use crate::error::Error;
 use crate::space::Domain;
 use crate::triangulation::{BORDER, Chunks, Patch, Triangulation, cover};
@@ -27,7 +27,7 @@ impl Pull {
 pub(super) struct Mesh {
     triangulation: Triangulation,
     chunks: Chunks,
-    side: f64,
+    sides: Sides,
     /// The last move of each vertex: exact, so that it can be undone.
     velocity: Vec<DVec2>,
     pulls: Vec<Pull>,
@@ -50,11 +50,11 @@ pub(super) struct Matched {
 }
 
 impl Mesh {
-    pub fn new(mut triangulation: Triangulation, side: f64) -> Self {
+    pub fn new(mut triangulation: Triangulation, sides: Sides) -> Self {
         let n_vertices = triangulation.positions.len();
         let chunks = Chunks::new(&triangulation.half_edges, n_vertices);
         let mut mesh = Self {
-            side,
+            sides,
             velocity: vec![DVec2::ZERO; n_vertices],
             pulls: vec![Pull::default(); n_vertices],
             amplitude: vec![0.0; triangulation.half_edges.n_triangles()],
@@ -79,8 +79,8 @@ impl Mesh {
     /// A chunk is matched while it is still in the cache from flipping, so what reaches across chunks is flipped before, in order.
     pub fn flip_and_match(&mut self, is_flipping: bool) -> Matched {
         let Triangulation { half_edges, positions, domain, .. } = &mut self.triangulation;
-        let (positions, domain, side) = (&*positions, &*domain, self.side);
-        let rule = FlipRule { positions, domain, side };
+        let (positions, domain, sides) = (&*positions, &*domain, &self.sides);
+        let rule = FlipRule { positions, domain, sides };
         let mut n_flips = 0;
         if is_flipping {
             let mut whole = Patch::whole(half_edges);
@@ -104,6 +104,7 @@ impl Mesh {
                     let at = |v: u32| positions[v as usize];
                     let u = domain.spoke(at(t[0]), at(t[1]));
                     let v = domain.spoke(at(t[0]), at(t[2]));
+                    let side = sides.at(at(t[0]) + (u + v) / 3.0);
                     energy += triangle_energy(a, u.perp_dot(v), side);
                     for (&vertex, way) in t.iter().zip(ways_to_targets(u, v, a, side)) {
                         match pulls.get_mut((vertex as usize).wrapping_sub(vertices.start)) {
@@ -253,7 +254,7 @@ impl Mesh {
 
     /// The mesh with its triangulation built anew; its vertices keep their numbers and their momentum.
     pub fn rebuilt(self, rebuild: impl FnOnce(Triangulation) -> Result<Triangulation, Error>) -> Result<Self, Error> {
-        let mut mesh = Self::new(rebuild(self.triangulation)?, self.side);
+        let mut mesh = Self::new(rebuild(self.triangulation)?, self.sides);
         mesh.velocity = self.velocity;
         Ok(mesh)
     }

@@ -6,8 +6,27 @@
 
 use glam::DVec2;
 
+use crate::density::SoftField;
+
 /// sqrt(3) / 2.
 pub(super) const H: f64 = 0.866_025_403_784_438_6;
+
+/// The side of the model triangle: the same everywhere, or as long as the density wants it.
+pub(super) struct Sides {
+    /// The side where the density is 1, its mean.
+    pub mean: f64,
+    /// No side is longer than this.
+    pub longest: f64,
+    pub field: Option<SoftField>,
+}
+
+impl Sides {
+    /// The side of a triangle with its centroid there.
+    #[inline]
+    pub fn at(&self, place: DVec2) -> f64 {
+        self.field.as_ref().map_or(self.mean, |field| (self.mean / field.root(place)).min(self.longest))
+    }
+}
 
 /// |A|, from the triangle's spokes.
 #[inline]

@@ -1,7 +1,7 @@
 //! The three steps of a visit, on a copy of the star: pull what is too far, push what is too near, and press or suck where the cell is
 //! too small or too large. All move neighbours along their spokes, so the angles of the star stay true.
 
-use crate::star::{Rule, Star};
+use crate::star::{Rule, Senses, Star};
 
 /// How much beyond the wanted distance a neighbour is pushed: nothing is then left to rounding.
 const OVERSHOOT: f64 = 1e-3;
@@ -14,6 +14,9 @@ const SHORT: f64 = 0.25;
 /// The area of a cell of the hexagonal lattice with spacing 1: the mean capacity.
 const MEAN_CAPACITY: f64 = 0.866_025_403_784_438_6;
 
+/// Sides where the density is below this part of the cell's do less for its mass, and go less.
+const THIN: f64 = 0.25;
+
 /// The targets, relative to the wanted spacing and the mean capacity, and the part of each move that is made.
 #[derive(Clone, Copy)]
 pub(super) struct PushPull {
@@ -24,6 +27,15 @@ pub(super) struct PushPull {
 }
 
 impl Rule for PushPull {
+    fn senses(&self) -> Senses {
+        Senses {
+            lengths: Some(self.min_distance.unwrap_or(LEAST_DISTANCE)),
+            radii: self.coverage_radius,
+            mass: self.capacity_tolerance.is_some(),
+            centroid: false,
+        }
+    }
+
     fn visit(&self, star: &mut Star) -> bool {
         let &Self { min_distance, coverage_radius, capacity_tolerance, relaxation } = self;
         let has_pulled = coverage_radius.is_some_and(|radius| cover(star, radius, relaxation));
@@ -44,7 +56,7 @@ fn cover(star: &mut Star, radius: f64, relaxation: f64) -> bool {
     scales.clear();
     scales.resize(n, 1.0f64);
     for k in (0..n).filter(|&k| !star.is_covered(k, radius)) {
-        let scale = radius * (1.0 - UNDERSHOOT) / star.circumradius(k);
+        let scale = radius * (1.0 - UNDERSHOOT) / star.weighted_radius(k);
         for end in [k, star.after(k)] {
             scales[end] = scales[end].min(scale);
         }
@@ -59,9 +71,12 @@ fn cover(star: &mut Star, radius: f64, relaxation: f64) -> bool {
 /// Conflict (optimization 1): a neighbour that is too near is pushed away. One's own image behind a wall is no neighbour.
 fn push_away(star: &mut Star, distance: f64, relaxation: f64) -> bool {
     let mut has_pushed = false;
-    for (length, &is_mirror) in star.lengths.iter_mut().zip(&star.is_mirror) {
-        if *length < distance && !is_mirror {
-            *length += relaxation * (distance * (1.0 + OVERSHOOT) - *length);
+    for k in 0..star.n_spokes() {
+        let stretch = star.stretch(k);
+        let weighted = star.lengths[k] * stretch;
+        if weighted < distance && !star.is_mirror[k] {
+            let missing = distance * (1.0 + OVERSHOOT) - weighted;
+            star.lengths[k] += relaxation * missing / stretch;
             has_pushed = true;
         }
     }
@@ -71,11 +86,13 @@ fn push_away(star: &mut Star, distance: f64, relaxation: f64) -> bool {
 /// Capacity (optimization 3): a cell of wrong area presses on its sides in proportion to their length, p = -(A - mean) / sum l^2, so that
 /// each goes by p l and the neighbour behind it by twice that. Walls do not give way, and short sides are left alone.
 fn equalize(star: &mut Star, tolerance: f64, relaxation: f64) -> bool {
-    let excess = star.measure_cell() / MEAN_CAPACITY - 1.0;
+    let area = star.measure_cell();
+    let mass = star.metric.mass.unwrap_or(area);
+    let excess = mass / MEAN_CAPACITY - 1.0;
     if excess.abs() <= tolerance {
         return false;
     }
-    let Star { lengths, sides, is_mirror, .. } = star;
+    let Star { lengths, sides, is_mirror, metric, .. } = star;
     for (side, _) in sides.iter_mut().zip(is_mirror).filter(|(_, is_mirror)| **is_mirror) {
         *side = 0.0;
     }
@@ -83,9 +100,16 @@ fn equalize(star: &mut Star, tolerance: f64, relaxation: f64) -> bool {
     for side in sides.iter_mut().filter(|side| **side < short) {
         *side = 0.0;
     }
-    let squares: f64 = sides.iter().map(|side| side * side).sum();
-    if squares > 0.0 {
-        let pressure = -excess * MEAN_CAPACITY / squares;
+    // Where a side goes by its length times p, the cell gains as much times the density there.
+    let mut gain = 0.0;
+    for (k, side) in sides.iter_mut().enumerate() {
+        let density = metric.sides.get(k).copied().unwrap_or(1.0);
+        let part = (density / (THIN * metric.scale * metric.scale)).min(1.0);
+        gain += density * part * *side * *side;
+        *side *= part;
+    }
+    if gain > 0.0 {
+        let pressure = -excess * MEAN_CAPACITY / gain;
         for (length, side) in lengths.iter_mut().zip(sides) {
             *length += relaxation * 2.0 * pressure * *side;
         }

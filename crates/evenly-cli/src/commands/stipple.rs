@@ -1,0 +1,217 @@
+//! `evenly stipple`: a picture as dots of one pen, or of four.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use anyhow::{Context as _, bail};
+use evenly::{CancelToken, PointSet, Rectangle, RunContext, Space, eliminate, measure, tessellate, tour};
+use evenly_io::{Drawing, Format, Layer, Marks, Photograph, Target, write_points};
+use serde::Serialize;
+
+use crate::stipple::{Ink, Paper, Pen, ToneReport, compare_tone, dot_areas, edges_of, inks, optimizer, shares, spread};
+use crate::stipple_args::{DotKind, DrawOrder, Sizes, Stipple};
+use crate::talk::say;
+use crate::{interrupt, record, session};
+
+/// The width of edges, where none is given.
+const LINE_MM: f64 = 0.3;
+
+pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
+    let begin = Instant::now();
+    let targets = Targets::new(args)?;
+    let tone = args.tone()?;
+    // For bad usage, before a long read.
+    optimizer(args.method, args.iterations, args.seed)?;
+    let pool = session::pool(args.run.threads)?;
+    let photograph = Photograph::read(&args.input)?;
+    let paper = Paper::new(&args.page, args.margin, photograph.size())?;
+    let inks = inks(&photograph, &tone, args.layers, args.sizes)?;
+    let name = photograph.name().to_owned();
+    let picture_px = photograph.size();
+    drop(photograph);
+    let space: Space = Rectangle::new([0.0, 0.0], picture_px.map(|n| n as f64)).with_context(|| name.clone())?.into();
+
+    let cancel = CancelToken::default();
+    interrupt::cancels(&cancel, args.run.quiet)?;
+    let mut drawn = Vec::new();
+    // Of each layer another, so that no two put their dots in the same places.
+    let seeds = (0..).map(|layer| args.seed.wrapping_add(layer));
+    for ((ink, n_points), seed) in inks.iter().zip(shares(&inks, args.n_points)).zip(seeds).filter(|((_, n), _)| *n > 0) {
+        let work = || Drawn::new(args, space, ink, n_points, seed, &cancel);
+        drawn.push(pool.install(work).with_context(|| name.clone())?);
+    }
+    let pen_mm = args.pen.unwrap_or_else(|| match args.edges {
+        Some(_) => LINE_MM,
+        None => {
+            // The widest that suits all layers, as pens are sold: to a hundredth of a millimetre, where that is fine enough.
+            let mm = drawn.iter().map(|drawn| drawn.pen.diameter_px).fold(f64::INFINITY, f64::min) * paper.mm_per_px;
+            if mm > 0.05 { (100.0 * mm).floor() / 100.0 } else { mm }
+        }
+    });
+    if pen_mm <= 0.0 {
+        bail!("--pen is {pen_mm} mm; it must be wider than that");
+    }
+    let layers = drawn.iter().map(|drawn| drawn.layer(args, &paper, pen_mm)).collect::<Result<Vec<Layer>, evenly::Error>>();
+    let drawing = Drawing { page_mm: paper.size_mm, layers: layers.with_context(|| name.clone())? };
+    let pen_up_mm: f64 = drawing.layers.iter().map(|layer| layer.marks.pen_up_mm()).sum();
+
+    let recipe = record::recipe(Some(args.seed));
+    if targets.output.format().holds_points() {
+        write_points(&united(space, &drawn)?, &[], &recipe, &targets.output)?;
+    } else {
+        pool.install(|| drawing.write(&recipe, &targets.output))?;
+    }
+    if let Some(preview) = &targets.preview {
+        pool.install(|| drawing.write(&recipe, preview))?;
+    }
+    let n_points: usize = drawn.iter().map(|drawn| drawn.points.n_points()).sum();
+    if !args.run.quiet {
+        let [width, height] = paper.size_mm;
+        let seconds = begin.elapsed().as_secs_f64();
+        say(format_args!("{}: {n_points} dots, seed {}, {seconds:.2} s", targets.output.name(), args.seed));
+        let way = if args.edges.is_none() { format!("; between dots the pen goes {:.2} m", 1e-3 * pen_up_mm) } else { String::new() };
+        say(format_args!("paper {width} x {height} mm, pen {pen_mm:.3} mm{way}"));
+    }
+    if let Some(report) = &targets.report {
+        let layers = drawn.iter().map(|drawn| pool.install(|| drawn.report(pen_mm / paper.mm_per_px)));
+        let record = Record {
+            version: record::VERSION,
+            command: record::command(),
+            method: args.method.name(),
+            seed: args.seed,
+            picture_px,
+            page_mm: paper.size_mm,
+            pen_mm,
+            mm_per_px: paper.mm_per_px,
+            n_points,
+            pen_up_mm,
+            seconds: begin.elapsed().as_secs_f64(),
+            is_interrupted: cancel.is_cancelled(),
+            layers: layers.collect::<Result<_, _>>()?,
+        };
+        report.write((serde_json::to_string_pretty(&record)? + "\n").as_bytes())?;
+    }
+    Ok(if cancel.is_cancelled() { ExitCode::from(interrupt::CODE) } else { ExitCode::SUCCESS })
+}
+
+/// Where everything goes, checked before the work begins.
+struct Targets {
+    output: Target,
+    preview: Option<Target>,
+    report: Option<Target>,
+}
+
+impl Targets {
+    fn new(args: &Stipple) -> anyhow::Result<Self> {
+        let output = Target::new(&args.output, args.format, args.run.force)?;
+        let preview = if args.preview { Some(output.beside(Format::Png)?) } else { None };
+        let any = |path: &PathBuf| Target::any(path, args.run.force);
+        let report = args.report.as_ref().map(any).transpose()?;
+        let all: Vec<&Target> = [Some(&output), preview.as_ref(), report.as_ref()].into_iter().flatten().collect();
+        for (k, target) in all.iter().enumerate() {
+            if all[..k].iter().any(|other| other.is_same(target)) {
+                bail!("{}: two outputs cannot go to the same file", target.name());
+            }
+        }
+        Ok(Self { output, preview, report })
+    }
+}
+
+/// What `--report` holds.
+#[derive(Serialize)]
+struct Record {
+    version: &'static str,
+    command: String,
+    method: String,
+    seed: u64,
+    picture_px: [usize; 2],
+    page_mm: [f64; 2],
+    pen_mm: f64,
+    mm_per_px: f64,
+    n_points: usize,
+    /// How far the pen goes from dot to dot.
+    pen_up_mm: f64,
+    seconds: f64,
+    is_interrupted: bool,
+    layers: Vec<LayerRecord>,
+}
+
+#[derive(Serialize)]
+struct LayerRecord {
+    name: &'static str,
+    n_points: usize,
+    /// As in `analyze`.
+    density_error: Option<f64>,
+    #[serde(flatten)]
+    tone: ToneReport,
+}
+
+/// The dots of one pen.
+struct Drawn<'a> {
+    ink: &'a Ink,
+    points: PointSet,
+    /// Of the dots, relative to the largest.
+    areas: Vec<f64>,
+    pen: Pen,
+}
+
+impl<'a> Drawn<'a> {
+    fn new(args: &Stipple, space: Space, ink: &'a Ink, n_points: usize, seed: u64, cancel: &CancelToken) -> anyhow::Result<Self> {
+        let optimizer = optimizer(args.method, args.iterations, seed)?;
+        let bar = session::bar(args.run.quiet, 1000, "{msg} [{bar:30}] {eta} left");
+        let mut run = RunContext::default().on_progress(|progress| session::show(&bar, progress)).with_cancel(cancel.clone());
+        let points = spread(space, ink, n_points, args.method, optimizer.as_deref(), seed, &mut run)?;
+        bar.finish_and_clear();
+        let points = match args.order {
+            DrawOrder::Tour => ordered(&points, &tour(&points))?,
+            DrawOrder::Progressive => eliminate(&points, points.n_points())?,
+            DrawOrder::Input => points,
+        };
+        let areas = match args.sizes {
+            Sizes::Constant => vec![1.0; points.n_points()],
+            Sizes::Tone => dot_areas(&points, ink),
+        };
+        let pen = Pen::for_dots(&points, ink, &areas);
+        Ok(Self { ink, points, areas, pen })
+    }
+
+    fn layer(&self, args: &Stipple, paper: &Paper, pen_mm: f64) -> Result<Layer, evenly::Error> {
+        let places = self.points.positions().iter().map(|&p| paper.place(p));
+        let dots = || places.zip(&self.areas).map(|(place, area)| (place, diameter(pen_mm, *area))).collect();
+        let marks = match (args.edges, args.dots) {
+            (Some(edges), _) => {
+                let lines = edges_of(&tessellate(&self.points)?, edges);
+                Marks::Lines(lines.into_iter().map(|line| line.map(|p| paper.place(p))).collect())
+            }
+            (None, DotKind::Path) => Marks::Dots(dots()),
+            (None, DotKind::Circle) => Marks::Circles(dots()),
+        };
+        Ok(Layer { name: self.ink.name.into(), colour: self.ink.colour, pen_mm, marks })
+    }
+
+    fn report(&self, pen_px: f64) -> Result<LayerRecord, evenly::Error> {
+        let radii: Vec<f64> = self.areas.iter().map(|&area| 0.5 * diameter(pen_px, area)).collect();
+        Ok(LayerRecord {
+            name: self.ink.name,
+            n_points: self.points.n_points(),
+            density_error: measure(&self.points).ok().and_then(|measures| measures.density_error),
+            tone: compare_tone(&self.points, self.ink, &radii)?,
+        })
+    }
+}
+
+/// Of a dot, in steps of a sixteenth of the pen, as dots of one size are drawn together.
+fn diameter(pen: f64, area: f64) -> f64 {
+    pen * (16.0 * area.sqrt()).round() / 16.0
+}
+
+fn ordered(points: &PointSet, order: &[usize]) -> Result<PointSet, evenly::Error> {
+    let positions = order.iter().map(|&index| points.positions()[index]).collect();
+    Ok(PointSet::new(*points.space(), positions)?.with_density(points.density()))
+}
+
+/// The dots of all pens, one after the other.
+fn united(space: Space, drawn: &[Drawn]) -> Result<PointSet, evenly::Error> {
+    PointSet::new(space, drawn.iter().flat_map(|drawn| drawn.points.positions()).copied().collect())
+}

@@ -1,0 +1,150 @@
+//! The arguments of `evenly stipple`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use evenly_io::{Format, Tone};
+
+use crate::args::{parse_count, parse_format};
+use crate::method::{Method, parser};
+use crate::shared_args::LongArgs;
+
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  evenly stipple photo.jpg -n 20000 -o drawing.svg\n  evenly stipple photo.jpg -n 8000 --page 300x200mm --pen 0.4mm --layers cmyk -o drawing.svg --preview\n\n\
+                  Points, as .txt .csv or .npy, are in the picture's pixels, y upwards from its lower left corner."
+)]
+pub struct Stipple {
+    /// A picture, .png, .jpg or .tif; - is stdin. What is transparent gets no dots
+    pub input: PathBuf,
+    /// How many dots, exactly, of all layers together
+    #[arg(short, long, value_name = "N", value_parser = parse_count, default_value = "20000", allow_negative_numbers = true)]
+    pub n_points: usize,
+    /// Where the drawing goes: .svg .png .pdf, or its points: .txt .csv .npy; - is stdout
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// The output's format, if its name does not tell
+    #[arg(long, value_parser = parse_format)]
+    pub format: Option<Format>,
+    /// How dots are spread; poisson-disk, eliminate and white are no optimisers
+    #[arg(long, default_value = "push-pull", value_parser = parser(|method| method.knows_density() && method != Method::Warp))]
+    pub method: Method,
+    /// Passes of an optimiser [default: push-pull, well-spaced and capacity: 60, others by the method]
+    #[arg(short, long, value_name = "I", allow_negative_numbers = true)]
+    pub iterations: Option<usize>,
+    /// The same seed gives the same dots
+    #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
+    pub seed: u64,
+    /// Light counts instead of dark, as for a white pen on black paper
+    #[arg(long, help_heading = "Tone")]
+    pub invert: bool,
+    /// Spread tones from middle grey by this factor
+    #[arg(long, value_name = "C", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Tone")]
+    pub contrast: f64,
+    /// Raise darkness, from 0 to 1, to this power: more than 1 lightens middle tones
+    #[arg(long, value_name = "G", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Tone")]
+    pub gamma: f64,
+    /// The least darkness, from 0 to 1: more than 0 leaves no paper empty
+    #[arg(long, value_name = "F", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Tone")]
+    pub floor: f64,
+    /// One black layer, or a layer a colour
+    #[arg(long, value_enum, default_value = "black", help_heading = "Drawing")]
+    pub layers: Layers,
+    /// The paper: a0 to a6, letter, or WxHmm (cm, in); a name takes the picture's orientation
+    #[arg(long, value_name = "PAGE", default_value = "a4", help_heading = "Drawing")]
+    pub page: String,
+    /// Blank paper around the picture
+    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = parse_mm, allow_negative_numbers = true, help_heading = "Drawing")]
+    pub margin: f64,
+    /// The largest dot's diameter [default: as wide as dots neither touch nor darken the picture too much; of edges 0.3mm]
+    #[arg(long, value_name = "LENGTH", value_parser = parse_mm, allow_negative_numbers = true, help_heading = "Drawing")]
+    pub pen: Option<f64>,
+    /// Dots as touches of a pen, or as filled circles
+    #[arg(long, value_enum, default_value = "path", help_heading = "Drawing")]
+    pub dots: DotKind,
+    /// Dots of one size, or larger where it is darker, down to half the pen
+    #[arg(long, value_enum, default_value = "constant", help_heading = "Drawing")]
+    pub sizes: Sizes,
+    /// In which order dots are drawn: on a short way for the pen, so that any part of the drawing is one of fewer dots, or as they come
+    #[arg(long, value_enum, default_value = "tour", help_heading = "Drawing")]
+    pub order: DrawOrder,
+    /// Draw the edges between dots instead of the dots
+    #[arg(long, value_enum, help_heading = "Drawing")]
+    pub edges: Option<Edges>,
+    /// Write a PNG beside the drawing
+    #[arg(long, help_heading = "Output")]
+    pub preview: bool,
+    /// Write what was drawn and how true its tone is, as JSON
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub report: Option<PathBuf>,
+    #[command(flatten)]
+    pub run: LongArgs,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Layers {
+    /// All dots in black
+    Black,
+    /// Cyan, magenta, yellow and black
+    Cmyk,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DotKind {
+    /// Touches of a pen
+    Path,
+    /// Filled circles
+    Circle,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Sizes {
+    /// All the same
+    Constant,
+    /// By the tone
+    Tone,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DrawOrder {
+    /// A short way for the pen
+    Tour,
+    /// Any part of it, from the first dot on, is spread by the tone
+    Progressive,
+    /// As they come
+    Input,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Edges {
+    /// Between the dots' cells
+    Voronoi,
+    /// Between neighbouring dots
+    Delaunay,
+}
+
+impl Stipple {
+    /// # Errors
+    /// A number out of its range.
+    pub fn tone(&self) -> anyhow::Result<Tone> {
+        let Self { contrast, gamma, floor, .. } = *self;
+        let checks = [
+            ("contrast", contrast, (0.0..=100.0).contains(&contrast), "0 to 100"),
+            ("gamma", gamma, gamma > 0.0 && gamma <= 100.0, "above 0, and 100 at most"),
+            ("floor", floor, (0.0..=1.0).contains(&floor), "0 to 1"),
+        ];
+        for (name, value, is_good, expected) in checks {
+            anyhow::ensure!(is_good, "--{name} is {value}; it must be {expected}");
+        }
+        Ok(Tone { is_inverted: !self.invert, contrast, gamma, floor })
+    }
+}
+
+/// A length in millimetres, or with a unit.
+pub fn parse_mm(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
+    let (number, unit) = units.iter().find_map(|&(name, mm)| Some((text.strip_suffix(name)?, mm))).unwrap_or((text, 1.0));
+    let length = number.trim().parse::<f64>().map_or(f64::NAN, |number| number * unit);
+    if (0.0..=1e5).contains(&length) { Ok(length) } else { Err("it must be a length, such as 10mm, 1cm or 0.5in, 100 m at most".into()) }
+}
