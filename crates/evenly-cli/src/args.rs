@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, Command as Clap, CommandFactory as _, Parser, Subcommand};
-use evenly::MAX_POINTS;
 use evenly_io::Format;
 
 use crate::measuring_args::{Analyze, Bilateral, Reproduce, Zoneplate};
 use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
+use crate::parse::{parse_count, parse_format};
 use crate::shared_args::{DensityArgs, DrawArg, LongArgs, SpaceArgs};
 use crate::stipple_args::Stipple;
 
@@ -174,21 +174,4 @@ pub struct RunArgs {
 /// The whole command, with what the table of methods adds to the help.
 pub fn command() -> Clap {
     Cli::command().mut_subcommand("generate", with_methods).mut_subcommand("optimize", with_methods).mut_subcommand("compare", with_methods)
-}
-
-pub fn parse_count(text: &str) -> Result<usize, String> {
-    let number = text.parse::<usize>().ok().or_else(|| {
-        // 1e6 is a count too.
-        let number = text.parse::<f64>().ok()?;
-        (number.fract() == 0.0 && (0.0..1e15).contains(&number)).then_some(number as usize)
-    });
-    match number {
-        Some(n) if (1..=MAX_POINTS).contains(&n) => Ok(n),
-        _ => Err(format!("it must be a whole number from 1 to {MAX_POINTS}")),
-    }
-}
-
-pub fn parse_format(text: &str) -> Result<Format, String> {
-    let names: Vec<&str> = Format::ALL.iter().map(|&(name, _)| name).collect();
-    Format::from_name(text).ok_or_else(|| format!("it must be one of {}", names.join(", ")))
 }

@@ -14,6 +14,7 @@ mod method;
 mod method_args;
 mod optimizer;
 mod page;
+mod parse;
 mod record;
 mod reproduce;
 mod session;

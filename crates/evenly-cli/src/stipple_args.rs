@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use evenly_io::{Format, Tone};
 
-use crate::args::{parse_count, parse_format};
 use crate::method::{Method, parser};
+use crate::parse::{parse_count, parse_format, parse_mm};
 use crate::shared_args::LongArgs;
 
 #[derive(Args)]
@@ -138,13 +138,4 @@ impl Stipple {
         }
         Ok(Tone { is_inverted: !self.invert, contrast, gamma, floor })
     }
-}
-
-/// A length in millimetres, or with a unit.
-pub fn parse_mm(text: &str) -> Result<f64, String> {
-    let text = text.trim();
-    let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
-    let (number, unit) = units.iter().find_map(|&(name, mm)| Some((text.strip_suffix(name)?, mm))).unwrap_or((text, 1.0));
-    let length = number.trim().parse::<f64>().map_or(f64::NAN, |number| number * unit);
-    if (0.0..=1e5).contains(&length) { Ok(length) } else { Err("it must be a length, such as 10mm, 1cm or 0.5in, 100 m at most".into()) }
 }

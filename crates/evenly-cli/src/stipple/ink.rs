@@ -5,8 +5,6 @@ use evenly_io::{Photograph, Tone, luma};
 
 use crate::stipple_args::{Layers, Sizes};
 
-use super::pen::dot_area;
-
 /// One pen's share of the picture.
 pub struct Ink {
     pub name: &'static str,
@@ -16,6 +14,14 @@ pub struct Ink {
     pub darkness: Density,
     /// How many dots are wanted where: the same, if all are of one size.
     pub density: Density,
+}
+
+/// The area of the smallest dots, relative to the largest.
+const SMALLEST: f64 = 0.25;
+
+/// The area of a dot where the picture is so dark, relative to the largest.
+pub fn dot_area(darkness: f64) -> f64 {
+    SMALLEST + (1.0 - SMALLEST) * darkness.clamp(0.0, 1.0)
 }
 
 /// A pen's colour, and what of a colour is its.

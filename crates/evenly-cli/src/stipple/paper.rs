@@ -2,7 +2,7 @@
 
 use anyhow::bail;
 
-use crate::stipple_args::parse_mm;
+use crate::parse::parse_mm;
 
 /// A page with a picture in its middle, as large as the margins leave room for.
 pub struct Paper {

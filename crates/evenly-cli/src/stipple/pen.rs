@@ -4,17 +4,10 @@ use std::f64::consts::PI;
 
 use evenly::PointSet;
 
-use super::ink::Ink;
+use super::ink::{Ink, dot_area};
 
-/// The area of the smallest dots, relative to the largest.
-const SMALLEST: f64 = 0.25;
 /// Dots are so wide at most, in the spacing of where it is darkest: they do not touch.
 const WIDEST: f64 = 0.8;
-
-/// The area of a dot where the picture is so dark, relative to the largest.
-pub fn dot_area(darkness: f64) -> f64 {
-    SMALLEST + (1.0 - SMALLEST) * darkness.clamp(0.0, 1.0)
-}
 
 /// For each dot its area, relative to the largest, as its size by tone has it.
 pub fn dot_areas(points: &PointSet, ink: &Ink) -> Vec<f64> {

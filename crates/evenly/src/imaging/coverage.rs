@@ -64,7 +64,7 @@ mod tests {
         assert!((one - std::f64::consts::PI * 0.09).abs() < 1e-3, "{one}");
         assert_eq!(covered(&middle(vec![[6.0, -0.5]; 3]), 0.3), one);
         // A quarter of a dot in the upper left corner.
-        let image = dot_coverage(&middle(vec![[5.0, 0.0]]), &[0.1], 20, 10).unwrap();
+        let image = dot_coverage(&middle(vec![[5.0, 0.0]]), &[0.2], 20, 10).unwrap();
         assert!(image.values()[0] == 1.0 && image.values()[199] == 0.0);
         let many = hexagonal(space, 500).unwrap();
         // Some lie on the border.
