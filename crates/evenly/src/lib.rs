@@ -26,6 +26,7 @@ mod run;
 mod space;
 mod star;
 mod sweep;
+mod tour;
 mod triangulation;
 
 pub use density::Density;
@@ -45,8 +46,9 @@ pub use optimize::{
 };
 pub use points::{
     CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,
-    poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, tour, warp, warp_isotropic, white, white_by_density,
+    poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, warp, warp_isotropic, white, white_by_density,
 };
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Space, Torus};
 pub use sweep::Schedule;
+pub use tour::tour;

@@ -194,7 +194,8 @@ impl Field {
     #[inline]
     fn beside(&self, from: Pixel, column: i64, row: i64, step: i64) -> Pixel {
         let (columns, rows) = (self.raster.columns as i64, self.raster.rows as i64);
-        if !((0..columns).contains(&column) && (0..rows).contains(&row)) {
+        // Beyond the picture a pixel is not what it seems.
+        if !((0..columns).contains(&column) && (0..columns).contains(&(column - step)) && (0..rows).contains(&row)) {
             return self.pixel(column, row);
         }
         let value = self.raster.value(column as usize, row as usize);

@@ -3,6 +3,8 @@
 mod field;
 mod raster;
 mod soft;
+#[cfg(test)]
+mod tests;
 mod walk;
 
 pub(crate) use field::Field;

@@ -69,7 +69,7 @@ mod tests {
         let many = hexagonal(space, 500).unwrap();
         // Some lie on the border.
         let radius = 0.3 * many.hex_spacing();
-        let share = covered(&many, radius) / (500.0 * std::f64::consts::PI * radius * radius / 2.0);
+        let share = covered(&many, radius) / (500.0 * std::f64::consts::PI * radius * radius);
         assert!((0.9..=1.0).contains(&share), "{share}");
         assert!(dot_coverage(&many, &[1.0], 10, 10).is_err() && dot_coverage(&many, &vec![-1.0; 500], 10, 10).is_err());
         assert!(dot_coverage(&many, &vec![1.0; 500], 0, 10).is_err());

@@ -99,7 +99,7 @@ impl PointSet {
     pub(crate) fn place(&mut self, domain: &Domain, order: &[u32], positions: &[DVec2]) {
         let field = self.field(domain);
         for (&index, &q) in order.iter().zip(positions) {
-            self.positions[index as usize] = domain.restore(field.as_ref().map_or(q, |field| field.settle(q)));
+            self.positions[index as usize] = domain.restore(field.as_ref().map_or(q, |field| domain.land(field.settle(q))));
         }
     }
 

@@ -9,8 +9,7 @@
 
 use glam::DVec2;
 
-use super::point_set::PointSet;
-use super::separate::separate;
+use crate::points::{PointSet, separate};
 use crate::space::Domain;
 use crate::triangulation::delaunay;
 
