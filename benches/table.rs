@@ -1,9 +1,11 @@
-//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts | comparators | spectrum]`,
+//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density]`,
 //! quick without the largest runs.
 //!
 //! Speed is a ratio to one run of `delaunator` on the same points in the same process, the best of a few runs each.
 
 #![allow(clippy::unwrap_used)]
+
+mod density;
 
 use std::time::{Duration, Instant};
 
@@ -24,7 +26,7 @@ fn main() {
     let args: Vec<String> = std::env::args().collect();
     let is_wanted = |name: &str| args.iter().any(|arg| arg == name);
     let is_quick = is_wanted("quick");
-    let is_all = !["procrustes", "push-pull", "starts", "comparators", "spectrum"].into_iter().any(is_wanted);
+    let is_all = !["procrustes", "push-pull", "starts", "comparators", "spectrum", "density"].into_iter().any(is_wanted);
     println!("| run | must reach | measured |\n|---|---|---|");
     if is_all || is_wanted("procrustes") {
         of_procrustes(is_quick);
@@ -40,6 +42,9 @@ fn main() {
     }
     if is_all || is_wanted("spectrum") {
         of_spectra(is_quick);
+    }
+    if is_all || is_wanted("density") {
+        density::of_density(is_quick);
     }
 }
 

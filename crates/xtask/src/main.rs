@@ -5,7 +5,7 @@ use std::process::{Command, ExitCode};
 const USAGE: &str = "\
 usage: cargo xtask CHORE
   test           all tests: units, laws, numbers, the command line, the examples in the documentation
-  bench [quick] [procrustes | push-pull | starts | comparators | spectrum]
+  bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density]
                  the table of speed and quality, measured on this machine
   gallery        draws the pictures of the README, and the pages of docs/, anew: some five minutes";
 

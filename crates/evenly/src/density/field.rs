@@ -23,21 +23,19 @@ pub(crate) struct Field {
     root_scale: f64,
 }
 
+/// The largest integer that is not above a number.
+#[inline]
+fn floor(x: f64) -> i64 {
+    let towards_zero = x as i64;
+    towards_zero - i64::from((towards_zero as f64) > x)
+}
+
 /// A pixel of a row.
-#[derive(Clone, Copy)]
 struct Pixel {
     start: f64,
     /// Of the row, what lies before it.
-    sum: f64,
+    before: f64,
     value: f64,
-}
-
-impl Pixel {
-    /// The integral of the row up to `x`, which lies in the pixel.
-    #[inline]
-    fn up_to(self, x: f64) -> f64 {
-        self.sum + self.value * (x - self.start)
-    }
 }
 
 /// How far from a pixel's border points are put, in pixels: rounding does not take them over it.
@@ -64,7 +62,7 @@ impl Field {
     #[inline]
     pub fn at(&self, place: DVec2) -> f64 {
         let pixel = place * self.resolution;
-        let (column, row) = self.inside(pixel.x.floor() as i64, pixel.y.floor() as i64);
+        let (column, row) = self.inside(floor(pixel.x), floor(pixel.y));
         self.scale * self.raster.value(column, row)
     }
 
@@ -93,10 +91,13 @@ impl Field {
     }
 
     /// By what the length of a segment between two points is to be multiplied: the mean of the density's root along it. Where there is next to no density between them, as
-    /// across a gap, it is half of what it is at their places: they are not neighbours as if there were no gap.
-    pub fn stretch_between(&self, from: DVec2, by: DVec2) -> f64 {
-        let least = GAP * self.at(from).min(self.at(from + by)).sqrt();
-        self.stretch(from, by).max(least)
+    /// across a gap, it is half of what it is at their places: they are not neighbours as if there were no gap. The root is known to be `most` at most.
+    pub fn stretch_between(&self, from: DVec2, by: DVec2, most: f64) -> f64 {
+        let stretch = self.stretch(from, by);
+        if stretch >= GAP * most {
+            return stretch;
+        }
+        stretch.max(GAP * self.at(from).min(self.at(from + by)).sqrt())
     }
 
     /// The mean of the density's root along a segment.
@@ -104,14 +105,10 @@ impl Field {
     pub fn stretch(&self, from: DVec2, by: DVec2) -> f64 {
         let from = from * self.resolution;
         let mut walk = Walk::new(from, from + by * self.resolution);
-        let (columns, rows) = (self.raster.columns as i64, self.raster.rows as i64);
-        let sums = self.raster.sums();
         let (mut sum, mut before) = (0.0, 0.0);
-        let n = walk.n_crossings as i64 + 1;
-        let is_clear = walk.column >= n && walk.row >= n && walk.column + n < columns && walk.row + n < rows;
-        if is_clear {
-            let mut index = (walk.column + walk.row * (columns + 1)) as usize;
-            let (across, up) = (walk.step[0] as usize, (walk.step[1] * (columns + 1)) as usize);
+        if let Some(mut index) = self.clear_index(&walk) {
+            let sums = self.raster.sums();
+            let (across, up) = self.strides(&walk);
             let root = |index: usize| (sums[index + 1] - sums[index]).sqrt();
             for _ in 0..walk.n_crossings {
                 let (t, is_column) = walk.cross();
@@ -158,49 +155,63 @@ impl Field {
         let mut walk = Walk::new(from, to);
         let by = to - from;
         let (mut sum, mut mean, mut before) = (0.0, 0.0, 0.0);
-        let mut at = self.pixel(walk.column, walk.row);
-        for _ in 0..walk.n_crossings {
-            let (t, is_column) = walk.cross();
-            sum += (t - before) * at.up_to(from.x + 0.5 * (before + t) * by.x);
-            mean += (t - before) * at.value;
+        let mut add = |t: f64, start: f64, row_before: f64, value: f64| {
+            sum += (t - before) * (row_before + value * (from.x + 0.5 * (before + t) * by.x - start));
+            mean += (t - before) * value;
             before = t;
-            if is_column {
-                walk.column += walk.step[0];
-                at = self.beside(at, walk.column, walk.row, walk.step[0]);
-            } else {
-                walk.row += walk.step[1];
-                at = self.pixel(walk.column, walk.row);
+        };
+        if let Some(mut at) = self.clear_index(&walk) {
+            let sums = self.raster.sums();
+            let (across, up) = self.strides(&walk);
+            let mut start = walk.column as f64;
+            for _ in 0..walk.n_crossings {
+                let (t, is_column) = walk.cross();
+                add(t, start, sums[at], sums[at + 1] - sums[at]);
+                at = at.wrapping_add(if is_column { across } else { up });
+                start += if is_column { walk.step[0] as f64 } else { 0.0 };
             }
+            add(1.0, start, sums[at], sums[at + 1] - sums[at]);
+        } else {
+            for _ in 0..walk.n_crossings {
+                let (column, row) = (walk.column, walk.row);
+                let (t, is_column) = walk.cross();
+                let Pixel { start, before, value } = self.pixel(column, row);
+                add(t, start, before, value);
+                walk.column += if is_column { walk.step[0] } else { 0 };
+                walk.row += if is_column { 0 } else { walk.step[1] };
+            }
+            let Pixel { start, before, value } = self.pixel(walk.column, walk.row);
+            add(1.0, start, before, value);
         }
-        sum += (1.0 - before) * at.up_to(from.x + 0.5 * (before + 1.0) * by.x);
-        mean += (1.0 - before) * at.value;
         (sum * by.y, mean)
+    }
+
+    /// The index of a way's first pixel among the sums, if all of it stays clear of the picture's border.
+    #[inline]
+    fn clear_index(&self, walk: &Walk) -> Option<usize> {
+        let (columns, rows) = (self.raster.columns as i64, self.raster.rows as i64);
+        let n = walk.n_crossings as i64 + 1;
+        let is_clear = walk.column >= n && walk.row >= n && walk.column + n < columns && walk.row + n < rows;
+        is_clear.then(|| (walk.column + walk.row * (columns + 1)) as usize)
+    }
+
+    /// How the index changes from one column, and from one row, to the next of a way.
+    #[inline]
+    fn strides(&self, walk: &Walk) -> (usize, usize) {
+        (walk.step[0] as usize, (walk.step[1] * (self.raster.columns as i64 + 1)) as usize)
     }
 
     /// A pixel, and the sum of its row up to it.
     fn pixel(&self, column: i64, row: i64) -> Pixel {
         let (inside, row) = self.inside(column, row);
-        let (start, sum) = if self.is_periodic && column != inside as i64 {
+        let (start, before) = if self.is_periodic && column != inside as i64 {
             // Whole periods before it.
             let periods = (column - inside as i64) / self.raster.columns as i64;
             (column as f64, periods as f64 * self.raster.before(self.raster.columns, row))
         } else {
             (inside as f64, 0.0)
         };
-        Pixel { start, sum: sum + self.raster.before(inside, row), value: self.raster.value(inside, row) }
-    }
-
-    /// The pixel in this column and row, given the one beside it from which a step leads there.
-    #[inline]
-    fn beside(&self, from: Pixel, column: i64, row: i64, step: i64) -> Pixel {
-        let (columns, rows) = (self.raster.columns as i64, self.raster.rows as i64);
-        // Beyond the picture a pixel is not what it seems.
-        if !((0..columns).contains(&column) && (0..columns).contains(&(column - step)) && (0..rows).contains(&row)) {
-            return self.pixel(column, row);
-        }
-        let value = self.raster.value(column as usize, row as usize);
-        let sum = if step > 0 { from.sum + from.value } else { from.sum - value };
-        Pixel { start: column as f64, sum, value }
+        Pixel { start, before: before + self.raster.before(inside, row), value: self.raster.value(inside, row) }
     }
 
     /// The integrals of the raster's density in a row up to `x`, which lies in `column`; and of density times `x`.
@@ -319,7 +330,7 @@ impl Field {
         }
         let pixel = place * self.resolution;
         let (columns, rows) = (self.raster.columns as i64, self.raster.rows as i64);
-        let (column, row) = (pixel.x.floor() as i64, pixel.y.floor() as i64);
+        let (column, row) = (floor(pixel.x), floor(pixel.y));
         let mut nearest = (f64::INFINITY, place);
         let reach = if self.is_periodic { rows / 2 } else { rows };
         for distance in 0..=reach {

@@ -98,7 +98,10 @@ pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territo
     // Where points are dense, the same way means more.
     let scale = star.metric.scale;
     let longest = LONGEST / scale;
-    for (spoke, length) in spokes.iter().zip(&star.lengths) {
+    for (spoke, &length) in spokes.iter().zip(&star.lengths) {
+        if length == spoke.length {
+            continue;
+        }
         let point = mesh.point(spoke.vertex);
         let is_pushed = mesh.has_density() && spoke.vertex != MIRROR;
         let longest = if is_pushed { LONGEST_PUSH * mesh.local_spacing(point) / mesh.spacing() } else { longest };

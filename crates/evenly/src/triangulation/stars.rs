@@ -229,24 +229,28 @@ impl LiveMesh {
                 _ if length * least >= enough => least,
                 // The way to a mirror image is that to the wall, and back.
                 MIRROR => field.stretch(at, 0.5 * spoke.way),
-                _ => field.stretch_between(at, spoke.way),
+                _ => field.stretch_between(at, spoke.way, most),
             };
             star.metric.spokes.extend(spokes.iter().zip(&star.lengths).map(stretch));
         }
         if let Some(allowed) = senses.radii {
             for (k, &centre) in corners.iter().enumerate() {
-                if star.circumradius(k) * most <= allowed {
-                    star.metric.radii.push(most);
-                    continue;
-                }
+                let radius = star.circumradius(k);
                 // On a wall it is shared with the neighbour alone, whose image sees what the neighbour sees.
                 let others = [&spokes[k], &spokes[star.after(k)]].into_iter().filter(|spoke| spoke.vertex != MIRROR);
-                let (mut sum, mut n) = (field.stretch(at, centre), 1.0);
-                for spoke in others {
-                    sum += field.stretch(at + spoke.way, centre - spoke.way);
-                    n += 1.0;
+                let ways = std::iter::once((at, centre)).chain(others.map(|spoke| (at + spoke.way, centre - spoke.way)));
+                let n = ways.clone().count() as f64;
+                // Each way is no more than the bound; as they are found one after the other, that may be enough.
+                let (mut found, mut n_left) = (0.0, n);
+                for (from, way) in ways {
+                    if radius * (found + n_left * most) <= n * allowed {
+                        break;
+                    }
+                    found += field.stretch(from, way);
+                    n_left -= 1.0;
                 }
-                star.metric.radii.push(sum / n);
+                let bound = if n_left > 0.0 { n_left * most } else { 0.0 };
+                star.metric.radii.push((found + bound) / n);
             }
         }
         let unit = 1.0 / (self.spacing * self.spacing);
