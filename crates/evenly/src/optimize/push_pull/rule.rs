@@ -14,8 +14,6 @@ const SHORT: f64 = 0.25;
 /// The area of a cell of the hexagonal lattice with spacing 1: the mean capacity.
 const MEAN_CAPACITY: f64 = 0.866_025_403_784_438_6;
 
-/// Sides where the density is below this part of the cell's do less for its mass, and go less.
-const THIN: f64 = 0.25;
 
 /// The targets, relative to the wanted spacing and the mean capacity, and the part of each move that is made.
 #[derive(Clone, Copy)]
@@ -96,18 +94,17 @@ fn equalize(star: &mut Star, tolerance: f64, relaxation: f64) -> bool {
     for (side, _) in sides.iter_mut().zip(is_mirror).filter(|(_, is_mirror)| **is_mirror) {
         *side = 0.0;
     }
+    // A side that is thinner than others, as one that reaches into a gap, counts as a shorter one.
+    let densest = metric.sides.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let thinness = |k: usize| metric.sides.get(k).map_or(1.0, |density| density / densest);
+    sides.iter_mut().enumerate().for_each(|(k, side)| *side *= thinness(k));
     let short = SHORT * sides.iter().copied().fold(0.0, f64::max);
     for side in sides.iter_mut().filter(|side| **side < short) {
         *side = 0.0;
     }
-    // Where a side goes by its length times p, the cell gains as much times the density there.
-    let mut gain = 0.0;
-    for (k, side) in sides.iter_mut().enumerate() {
-        let density = metric.sides.get(k).copied().unwrap_or(1.0);
-        let part = (density / (THIN * metric.scale * metric.scale)).min(1.0);
-        gain += density * part * *side * *side;
-        *side *= part;
-    }
+    // Where a side goes by its length times p, the cell gains as much times its mass a length.
+    let density = if metric.sides.is_empty() { 1.0 } else { densest };
+    let gain: f64 = density * sides.iter().map(|side| side * side).sum::<f64>();
     if gain > 0.0 {
         let pressure = -excess * MEAN_CAPACITY / gain;
         for (length, side) in lengths.iter_mut().zip(sides) {
