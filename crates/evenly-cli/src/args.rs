@@ -108,8 +108,9 @@ pub struct Optimize {
 }
 
 #[derive(Args)]
-#[command(after_help = "Example:\n  evenly stipple photo.jpg -n 20000 -o drawing.svg
-  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html\n\nTargets that are missed are no failure here: the table has the share of runs that reached them.")]
+#[command(
+    after_help = "Example:\n  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html\n\nTargets that are missed are no failure here: the table has the share of runs that reached them."
+)]
 pub struct Compare {
     /// Points that all begin with, as .txt, .csv or .npy; - is stdin [default: new ones for each run, from --start]
     pub input: Option<PathBuf>,

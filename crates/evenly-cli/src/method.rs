@@ -58,7 +58,7 @@ const FLAGS: &[(&str, &[Method])] = &[
     ("start", OPTIMIZERS),
     ("density", BY_DENSITY),
     ("iterations", OPTIMIZERS),
-    ("no_warp", &[Procrustes, PushPull, WellSpaced]),
+    ("no_warp", &[Procrustes, PushPull, WellSpaced, Lloyd, DistMesh, Capacity]),
     ("mode", &[Procrustes]),
     ("side", &[Procrustes]),
     ("tolerance", &[Procrustes, Lloyd, Cvt, DistMesh]),

@@ -14,7 +14,7 @@ use crate::optimizer::Optimizer;
 /// What an optimiser can be told.
 #[derive(Args)]
 pub struct OptimizerArgs {
-    /// Take white noise, and any input, as it is; without this long density waves are evened out first
+    /// Take points as they are: not evened out first
     #[arg(long)]
     pub no_warp: bool,
     /// Stop after so many iterations or passes in any case [default: by the method]

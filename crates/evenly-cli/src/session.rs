@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
+use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure, warp_isotropic};
 use evenly_io::{Draw, Target, write_points};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -99,7 +99,9 @@ impl<'a> Session<'a> {
         is_warped: bool,
     ) -> anyhow::Result<ExitCode> {
         self.seed = self.seed.or(optimizer.seed());
-        let warp = optimizer.warp().filter(|_| is_warped && points.n_points() >= 3);
+        // By a density every method begins with points that follow it.
+        let by_density = (!points.density().is_uniform()).then_some(warp_isotropic as fn(&mut PointSet));
+        let warp = optimizer.warp().or(by_density).filter(|_| is_warped && points.n_points() >= 3);
         let start = (warp.is_some() && optimizer.targets().is_some()).then(|| points.clone());
         if let Some(warp) = warp {
             self.time("warp", || warp(&mut points));

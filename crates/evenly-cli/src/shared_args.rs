@@ -1,6 +1,6 @@
 //! Arguments that several verbs take: the domain, its density, and what a figure shows.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use evenly::{Density, Error, Rectangle, Space, Torus};
@@ -26,7 +26,7 @@ pub struct DensityArgs {
     /// The picture, .png, .jpg or .tif, spans the domain, and its luma is the density that is wanted: where it is black there are no points. HOW is any of invert (dark counts
     /// instead), contrast=C (tones are spread from middle grey), gamma=G (raised to this power) and floor=F (the least density, from 0 to 1), with commas between them.
     /// For all methods but opt-beta, cvt, farthest-point, dart, jittered and hexagonal.
-    #[arg(long, value_name = "FILE[:HOW]", value_parser = parse_density)]
+    #[arg(long, value_name = "FILE[:HOW]", value_parser = parse_density, allow_hyphen_values = true)]
     density: Option<DensitySpec>,
 }
 
@@ -58,6 +58,10 @@ fn parse_density(text: &str) -> Result<DensitySpec, String> {
     let known = |options: &str| options.split(',').all(|option| ["invert", "contrast", "gamma", "floor"].contains(&name_of(option)));
     match text.rsplit_once(':') {
         Some((path, options)) if !path.is_empty() && known(options) => Ok(DensitySpec { path: path.into(), tone: parse_tone(options)? }),
+        Some((path, options)) if Path::new(path).is_file() && !Path::new(text).exists() => {
+            Err(format!("{options:?} is none of invert, contrast=C, gamma=G and floor=F, with commas between them"))
+        }
+        _ if text.is_empty() => Err("it must be a picture's file".into()),
         _ => Ok(DensitySpec { path: text.into(), tone: Tone::default() }),
     }
 }
@@ -68,13 +72,19 @@ fn name_of(option: &str) -> &str {
 
 fn parse_tone(options: &str) -> Result<Tone, String> {
     let mut tone = Tone::default();
+    let mut seen = Vec::new();
     for option in options.split(',') {
+        if seen.contains(&name_of(option)) {
+            return Err(format!("{} is there twice", name_of(option)));
+        }
+        seen.push(name_of(option));
         let number = |is_good: fn(f64) -> bool, expected: &str| {
             let value = option.split_once('=').and_then(|(_, value)| value.parse::<f64>().ok());
             value.filter(|&value| is_good(value)).ok_or_else(|| format!("{option:?}: {} must be {expected}", name_of(option)))
         };
         match name_of(option) {
-            "invert" => tone.is_inverted = true,
+            "invert" if option == "invert" => tone.is_inverted = true,
+            "invert" => return Err(format!("{option:?}: invert takes no value")),
             "contrast" => tone.contrast = number(|c| (0.0..=100.0).contains(&c), "a number from 0 to 100")?,
             "gamma" => tone.gamma = number(|g| g > 0.0 && g <= 100.0, "a number above 0, and 100 at most")?,
             _ => tone.floor = number(|f| (0.0..=1.0).contains(&f), "a number from 0 to 1")?,

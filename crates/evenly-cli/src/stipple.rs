@@ -8,8 +8,8 @@ mod spread;
 mod tone;
 
 pub use edges::edges_of;
-pub use ink::{Ink, inks, shares};
+pub use ink::{Ink, Tones, shares};
 pub use paper::Paper;
-pub use pen::{Pen, dot_areas};
+pub use pen::{dot_areas, widest_dot};
 pub use spread::{optimizer, spread};
-pub use tone::{ToneReport, compare_tone};
+pub use tone::{ToneReport, Wanted};

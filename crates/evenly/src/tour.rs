@@ -137,7 +137,7 @@ impl Tour {
             turns.push([open, d, c]);
             open = d;
             let closed = gain - self.length(a, open);
-            if closed > best && is_gain(closed, step) {
+            if closed > best && is_gain(closed, step + self.length(a, open)) {
                 (best, n_kept) = (closed, turns.len());
             }
         }
@@ -202,7 +202,10 @@ impl Tour {
                     let d = self.beside(c, is_beyond == is_forward);
                     let gain = freed + self.length(c, d) - near - self.length(end, d);
                     let is_own = [c, d] == [before, a] || [d, c] == [before, a] || [c, d] == [end, after] || [d, c] == [end, after];
-                    if !is_own && is_gain(gain, freed) && self.relocate(before, [a, end], after, [c, d], is_forward) {
+                    if !is_own
+                        && is_gain(gain, freed + self.length(before, a) + self.length(end, after) + self.length(c, d))
+                        && self.relocate(before, [a, end], after, [c, d], is_forward)
+                    {
                         self.wake([before, a, end, after]);
                         self.wake([c, d, a, end]);
                         return true;

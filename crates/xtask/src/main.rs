@@ -26,19 +26,50 @@ fn main() -> ExitCode {
 
 /// The pictures that the README shows, and the papers reproduced.
 fn gallery() -> bool {
-    let pictures: [&[&str]; 7] = [
+    let pictures: [&[&str]; 10] = [
         &["generate", "-n", "10000", "-o", "gallery/points.png"],
         &["generate", "-n", "10000", "--draw", "valence", "-o", "gallery/valence.png"],
         &["generate", "-n", "600", "--space", "rect", "--size", "3,2", "--draw", "delaunay,points", "-o", "gallery/rectangle.png"],
         &["generate", "-n", "4096", "--method", "push-pull", "--draw", "report", "-o", "gallery/report.svg"],
+        &[
+            "stipple",
+            "target/scenes/balls.png",
+            "-n",
+            "30000",
+            "--layers",
+            "cmyk",
+            "--page",
+            "240x160mm",
+            "--margin",
+            "4mm",
+            "-o",
+            "gallery/balls.png",
+        ],
+        &["stipple", "target/scenes/mountains.png", "-n", "40000", "--page", "270x150mm", "--margin", "4mm", "-o", "gallery/mountains.png"],
+        &[
+            "stipple",
+            "target/scenes/torus.png",
+            "-n",
+            "6000",
+            "--sizes",
+            "tone",
+            "--page",
+            "150x150mm",
+            "--margin",
+            "4mm",
+            "-o",
+            "gallery/torus.png",
+        ],
         &["reproduce", "procrustes", "-o", "docs"],
         &["reproduce", "push-pull", "-o", "docs"],
         &["reproduce", "opt-beta", "-o", "docs"],
     ];
     let evenly = ["run", "--release", "--package", "evenly-cli", "--"];
-    let is_drawn = pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));
+    let example = |name: &str, path: &str| cargo(&["run", "--release", "--package", "evenly-io", "--example", name, path]);
+    let is_drawn =
+        example("03_scenes", "target/scenes") && pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));
     let mut examples = [("01_energy", "gallery/energy.svg"), ("02_methods", "gallery/methods.svg")].into_iter();
-    is_drawn && examples.all(|(name, path)| cargo(&["run", "--release", "--package", "evenly-io", "--example", name, path]))
+    is_drawn && examples.all(|(name, path)| example(name, path))
 }
 
 fn cargo(args: &[&str]) -> bool {

@@ -5,32 +5,39 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, PointSet, Rectangle, RunContext, Space, eliminate, measure, tessellate, tour};
+use evenly::{CancelToken, Density, PointSet, Rectangle, RunContext, Space, eliminate, measure, tessellate, tour};
 use evenly_io::{Drawing, Format, Layer, Marks, Photograph, Target, write_points};
 use serde::Serialize;
 
-use crate::stipple::{Ink, Paper, Pen, ToneReport, compare_tone, dot_areas, edges_of, inks, optimizer, shares, spread};
+use crate::stipple::{Ink, Paper, ToneReport, Tones, Wanted, dot_areas, edges_of, optimizer, shares, spread, widest_dot};
 use crate::stipple_args::{DotKind, DrawOrder, Sizes, Stipple};
 use crate::talk::say;
 use crate::{interrupt, record, session};
 
+/// The thinnest pen.
+const FINEST_MM: f64 = 0.001;
 /// The width of edges, where none is given.
 const LINE_MM: f64 = 0.3;
 
 pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
     let begin = Instant::now();
     let targets = Targets::new(args)?;
+    if let Some(pen) = args.pen.filter(|&pen| pen < FINEST_MM) {
+        bail!("--pen is {pen} mm; it must be {FINEST_MM} mm or more");
+    }
+    if args.edges.is_some() && args.n_points < 3 {
+        bail!("--n-points is {}; edges take 3 dots or more", args.n_points);
+    }
     let tone = args.tone()?;
     // For bad usage, before a long read.
     optimizer(args.method, args.iterations, args.seed)?;
     let pool = session::pool(args.run.threads)?;
     let photograph = Photograph::read(&args.input)?;
-    let paper = Paper::new(&args.page, args.margin, photograph.size())?;
-    let inks = inks(&photograph, &tone, args.layers, args.sizes)?;
-    let name = photograph.name().to_owned();
+    let name = photograph.name();
     let picture_px = photograph.size();
-    drop(photograph);
-    let space: Space = Rectangle::new([0.0, 0.0], picture_px.map(|n| n as f64)).with_context(|| name.clone())?.into();
+    let paper = Paper::new(&args.page, args.margin, picture_px)?;
+    let space: Space = Rectangle::new([0.0, 0.0], picture_px.map(|n| n as f64)).with_context(|| name.to_owned())?.into();
+    let inks = Ink::of(&photograph, &tone, args.layers);
 
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
@@ -38,22 +45,20 @@ pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
     // Of each layer another, so that no two put their dots in the same places.
     let seeds = (0..).map(|layer| args.seed.wrapping_add(layer));
     for ((ink, n_points), seed) in inks.iter().zip(shares(&inks, args.n_points)).zip(seeds).filter(|((_, n), _)| *n > 0) {
-        let work = || Drawn::new(args, space, ink, n_points, seed, &cancel);
-        drawn.push(pool.install(work).with_context(|| name.clone())?);
+        let tones = ink.tones(&photograph, &tone, args.sizes)?;
+        let work = || Drawn::new(args, space, ink, &tones, n_points, seed, &cancel);
+        drawn.push(pool.install(work).with_context(|| name.to_owned())?);
     }
     let pen_mm = args.pen.unwrap_or_else(|| match args.edges {
         Some(_) => LINE_MM,
         None => {
             // The widest that suits all layers, as pens are sold: to a hundredth of a millimetre, where that is fine enough.
-            let mm = drawn.iter().map(|drawn| drawn.pen.diameter_px).fold(f64::INFINITY, f64::min) * paper.mm_per_px;
+            let mm = drawn.iter().map(|drawn| drawn.widest_px).fold(f64::INFINITY, f64::min) * paper.mm_per_px;
             if mm > 0.05 { (100.0 * mm).floor() / 100.0 } else { mm }
         }
     });
-    if pen_mm <= 0.0 {
-        bail!("--pen is {pen_mm} mm; it must be wider than that");
-    }
     let layers = drawn.iter().map(|drawn| drawn.layer(args, &paper, pen_mm)).collect::<Result<Vec<Layer>, evenly::Error>>();
-    let drawing = Drawing { page_mm: paper.size_mm, layers: layers.with_context(|| name.clone())? };
+    let drawing = Drawing { page_mm: paper.size_mm, layers: layers.with_context(|| name.to_owned())? };
     let pen_up_mm: f64 = drawing.layers.iter().map(|layer| layer.marks.pen_up_mm()).sum();
 
     let recipe = record::recipe(Some(args.seed));
@@ -74,7 +79,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
         say(format_args!("paper {width} x {height} mm, pen {pen_mm:.3} mm{way}"));
     }
     if let Some(report) = &targets.report {
-        let layers = drawn.iter().map(|drawn| pool.install(|| drawn.report(pen_mm / paper.mm_per_px)));
+        let layers = drawn.iter().filter_map(|drawn| pool.install(|| drawn.report(pen_mm / paper.mm_per_px)).transpose());
         let record = Record {
             version: record::VERSION,
             command: record::command(),
@@ -108,10 +113,14 @@ impl Targets {
         let preview = if args.preview { Some(output.beside(Format::Png)?) } else { None };
         let any = |path: &PathBuf| Target::any(path, args.run.force);
         let report = args.report.as_ref().map(any).transpose()?;
-        let all: Vec<&Target> = [Some(&output), preview.as_ref(), report.as_ref()].into_iter().flatten().collect();
+        let input = Target::any(&args.input, true).ok();
+        let all: Vec<&Target> = [input.as_ref().filter(|input| !input.is_stdout()), Some(&output), preview.as_ref(), report.as_ref()]
+            .into_iter()
+            .flatten()
+            .collect();
         for (k, target) in all.iter().enumerate() {
             if all[..k].iter().any(|other| other.is_same(target)) {
-                bail!("{}: two outputs cannot go to the same file", target.name());
+                bail!("{}: the picture and each output must be files of their own", target.name());
             }
         }
         Ok(Self { output, preview, report })
@@ -153,33 +162,56 @@ struct Drawn<'a> {
     points: PointSet,
     /// Of the dots, relative to the largest.
     areas: Vec<f64>,
-    pen: Pen,
+    /// The largest dot that suits them.
+    widest_px: f64,
+    /// What only the report takes.
+    density_error: Option<f64>,
+    wanted: Option<Wanted>,
 }
 
 impl<'a> Drawn<'a> {
-    fn new(args: &Stipple, space: Space, ink: &'a Ink, n_points: usize, seed: u64, cancel: &CancelToken) -> anyhow::Result<Self> {
+    fn new(
+        args: &Stipple,
+        space: Space,
+        ink: &'a Ink,
+        tones: &Tones,
+        n_points: usize,
+        seed: u64,
+        cancel: &CancelToken,
+    ) -> anyhow::Result<Self> {
         let optimizer = optimizer(args.method, args.iterations, seed)?;
         let bar = session::bar(args.run.quiet, 1000, "{msg} [{bar:30}] {eta} left");
         let mut run = RunContext::default().on_progress(|progress| session::show(&bar, progress)).with_cancel(cancel.clone());
-        let points = spread(space, ink, n_points, args.method, optimizer.as_deref(), seed, &mut run)?;
+        let points = spread(space, &tones.density, n_points, args.method, optimizer.as_deref(), seed, &mut run)?;
         bar.finish_and_clear();
         let points = match args.order {
+            _ if cancel.is_cancelled() => points,
             DrawOrder::Tour => ordered(&points, &tour(&points))?,
             DrawOrder::Progressive => eliminate(&points, points.n_points())?,
             DrawOrder::Input => points,
         };
         let areas = match args.sizes {
             Sizes::Constant => vec![1.0; points.n_points()],
-            Sizes::Tone => dot_areas(&points, ink),
+            Sizes::Tone => dot_areas(&points, &tones.darkness, ink.mean_darkness),
         };
-        let pen = Pen::for_dots(&points, ink, &areas);
-        Ok(Self { ink, points, areas, pen })
+        let has_report = args.report.is_some();
+        Ok(Self {
+            ink,
+            widest_px: widest_dot(&points, ink.mean_darkness, &areas),
+            density_error: if has_report { measure(&points).ok().and_then(|measures| measures.density_error) } else { None },
+            wanted: if has_report { Some(Wanted::new(&points, &tones.darkness, ink.mean_darkness)?) } else { None },
+            // The density's pixels are not needed any more.
+            points: points.with_density(&Density::uniform()),
+            areas,
+        })
     }
 
     fn layer(&self, args: &Stipple, paper: &Paper, pen_mm: f64) -> Result<Layer, evenly::Error> {
         let places = self.points.positions().iter().map(|&p| paper.place(p));
         let dots = || places.zip(&self.areas).map(|(place, area)| (place, diameter(pen_mm, *area))).collect();
         let marks = match (args.edges, args.dots) {
+            // A layer of so few has no edges.
+            (Some(_), _) if self.points.n_points() < 3 => Marks::Lines(Vec::new()),
             (Some(edges), _) => {
                 let lines = edges_of(&tessellate(&self.points)?, edges);
                 Marks::Lines(lines.into_iter().map(|line| line.map(|p| paper.place(p))).collect())
@@ -187,17 +219,18 @@ impl<'a> Drawn<'a> {
             (None, DotKind::Path) => Marks::Dots(dots()),
             (None, DotKind::Circle) => Marks::Circles(dots()),
         };
-        Ok(Layer { name: self.ink.name.into(), colour: self.ink.colour, pen_mm, marks })
+        Ok(Layer { name: self.ink.name().into(), colour: self.ink.colour(), pen_mm, marks })
     }
 
-    fn report(&self, pen_px: f64) -> Result<LayerRecord, evenly::Error> {
+    fn report(&self, pen_px: f64) -> Result<Option<LayerRecord>, evenly::Error> {
+        let Some(wanted) = &self.wanted else { return Ok(None) };
         let radii: Vec<f64> = self.areas.iter().map(|&area| 0.5 * diameter(pen_px, area)).collect();
-        Ok(LayerRecord {
-            name: self.ink.name,
+        Ok(Some(LayerRecord {
+            name: self.ink.name(),
             n_points: self.points.n_points(),
-            density_error: measure(&self.points).ok().and_then(|measures| measures.density_error),
-            tone: compare_tone(&self.points, self.ink, &radii)?,
-        })
+            density_error: self.density_error,
+            tone: wanted.compare(&self.points, &radii)?,
+        }))
     }
 }
 

@@ -1,10 +1,9 @@
 //! Dots spread by a density.
 
 use evenly::{
-    CapacityParams, DistMeshParams, LloydParams, PointSet, ProcrustesParams, PushPullParams, RunContext, Space, WellSpacedParams,
+    CapacityParams, Density, DistMeshParams, LloydParams, PointSet, ProcrustesParams, PushPullParams, RunContext, Space, WellSpacedParams,
 };
 
-use super::ink::Ink;
 use crate::method::Method;
 use crate::method_args::{by_flag, start};
 use crate::optimizer::Optimizer;
@@ -34,20 +33,20 @@ pub fn optimizer(method: Method, iterations: Option<usize>, seed: u64) -> anyhow
     Ok(Some(optimizer))
 }
 
-/// As many dots as are asked for, spread as an ink wants them.
+/// As many dots as are asked for, spread as a density wants them.
 ///
 /// # Errors
 /// As the methods.
 pub fn spread(
     space: Space,
-    ink: &Ink,
+    density: &Density,
     n_points: usize,
     method: Method,
     optimizer: Option<&dyn Optimizer>,
     seed: u64,
     run: &mut RunContext,
 ) -> Result<PointSet, evenly::Error> {
-    let mut points = start(if optimizer.is_some() { Method::White } else { method }, space, &ink.density, n_points, seed)?;
+    let mut points = start(if optimizer.is_some() { Method::White } else { method }, space, density, n_points, seed)?;
     if let Some(optimizer) = optimizer {
         let warp = optimizer.warp().unwrap_or(evenly::warp_isotropic);
         warp(&mut points);

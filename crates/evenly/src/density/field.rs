@@ -23,6 +23,18 @@ pub(crate) struct Field {
     root_scale: f64,
 }
 
+/// A coordinate that lies outside of a pixel, from its start, taken inside: at its border, and the deeper the farther away it was, to a quarter.
+fn inward(x: f64) -> f64 {
+    let depth = |outside: f64| CLEARANCE + 0.25 * outside / (1.0 + outside);
+    if x < 0.0 {
+        depth(-x)
+    } else if x > 1.0 {
+        1.0 - depth(x - 1.0)
+    } else {
+        x.clamp(CLEARANCE, 1.0 - CLEARANCE)
+    }
+}
+
 /// The largest integer that is not above a number.
 #[inline]
 fn floor(x: f64) -> i64 {
@@ -40,6 +52,8 @@ struct Pixel {
 
 /// How far from a pixel's border points are put, in pixels: rounding does not take them over it.
 const CLEARANCE: f64 = 1.0 / 64.0;
+/// No way is shorter than this part of itself, also where there is no density at all.
+const LEAST_STRETCH: f64 = 1e-6;
 /// The part of their places' roots that counts in a gap between two points.
 const GAP: f64 = 0.5;
 /// Where the integrand is a polynomial of third degree at most, two places are enough: the nodes of Gauss.
@@ -97,7 +111,7 @@ impl Field {
         if stretch >= GAP * most {
             return stretch;
         }
-        stretch.max(GAP * self.at(from).min(self.at(from + by)).sqrt())
+        stretch.max(GAP * self.at(from).min(self.at(from + by)).sqrt()).max(LEAST_STRETCH)
     }
 
     /// The mean of the density's root along a segment.
@@ -323,7 +337,7 @@ impl Field {
         DVec2::new(x.clamp(column + CLEARANCE, column + 1.0 - CLEARANCE), y) / self.resolution
     }
 
-    /// The place itself where there is density, or else the nearest one where there is.
+    /// The place itself where there is density, or else one in the nearest pixel that has some: no two places come to the same.
     pub fn settle(&self, place: DVec2) -> DVec2 {
         if !self.raster.has_zeros || self.at(place) > 0.0 {
             return place;
@@ -344,7 +358,7 @@ impl Field {
                 }
                 for found in self.full_columns(column, row, columns) {
                     let low = DVec2::new(found as f64, row as f64);
-                    let in_pixel = pixel.clamp(low + CLEARANCE, low + (1.0 - CLEARANCE)) / self.resolution;
+                    let in_pixel = (low + DVec2::new(inward(pixel.x - low.x), inward(pixel.y - low.y))) / self.resolution;
                     let squared = in_pixel.distance_squared(place);
                     if squared < nearest.0 {
                         nearest = (squared, in_pixel);

@@ -47,7 +47,8 @@ impl Raster {
             }
             raster.before.push(sum);
             total += sum;
-            raster.has_zeros |= row.contains(&0.0);
+            // Also what is lost in rounding beside the rest.
+            raster.has_zeros |= raster.before[raster.before.len() - columns - 1..].windows(2).any(|pair| pair[0] == pair[1]);
             if k.is_multiple_of(TILE) {
                 raster.extremes.resize(raster.extremes.len() + columns.div_ceil(TILE), [f32::INFINITY, 0.0]);
             }
@@ -113,6 +114,7 @@ impl Raster {
 
     /// Where the sums of all pixels, row by row, reach `sum`: a place in a pixel that is not zero, and its row.
     pub fn place(&self, sum: f64) -> (f64, usize) {
+        let sum = sum.min(self.total().next_down());
         let row = self.below.partition_point(|&below| below <= sum).clamp(1, self.rows) - 1;
         let sums = self.row(row);
         // Rounding may lead past the row's end.

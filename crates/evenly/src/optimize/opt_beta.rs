@@ -115,7 +115,7 @@ pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunCont
             break Outcome::IterationLimit;
         }
         plan.max_passes = report.iterations + 1;
-        let ending = sweep.run(&ToLeastRatio { damping }, &plan, run, &mut report)?;
+        let ending = sweep.run(&ToLeastRatio { damping }, &plan, run, &mut report);
         if ending == Ending::Cancelled {
             break Outcome::Cancelled;
         }

@@ -10,6 +10,8 @@
 //! - Points are visited in an order that is new in each pass: a fixed order runs into cycles that never end.
 //! - Obtuse triangles are not left out. It makes no difference in the plane, and on curved surfaces they count.
 //! - The Delaunay property is restored where a star is read, not after each move; before a run counts as converged, everywhere.
+//! - Where the density varies (section 4.2), lengths are integrals of its root and areas of itself, exact on pixels. The radius of a triangle is the mean of the ways from its
+//!   three corners: with the visited corner's alone the three disagree, and never rest. Across a gap in the density no more than half of the local spacing counts.
 //! - In a rectangle a wall acts like the points' mirror images: cells end there, and the coverage radius counts walls and corners.
 //!
 //! Cost: O(n) in all, about 20 visits a point for {0.85, 0.67}, 60 for {0.90, 0.65} and 150 for {0.90, 0.63}. It does not promise that
@@ -267,7 +269,11 @@ pub(super) fn push_and_pull(
     }
 
     // Visits, until no point has to move another.
-    let ending = settle(&mut sweep, rule, params, &plan, run, report)?;
+    let ending = if points.density().is_uniform() {
+        settle(&mut sweep, rule, params, &plan, run, report)?
+    } else {
+        settle_by_density(&mut sweep, rule, &plan, run, report)
+    };
     report.outcome = match ending {
         Ending::Converged => Outcome::Converged,
         Ending::Cancelled => Outcome::Cancelled,
@@ -298,6 +304,24 @@ pub(super) fn push_and_pull(
     Ok(())
 }
 
+/// Where a density is rough, a few cells may throw points to and fro between them for ever: moves of another size end that. So many passes are made with each of
+/// these parts of the relaxation.
+const STAGE: usize = 300;
+const PARTS: [f64; 3] = [1.0, 0.6, 0.8];
+
+fn settle_by_density(sweep: &mut Sweep, rule: PushPull, plan: &Plan, run: &mut RunContext, report: &mut Report) -> Ending {
+    let mut n_stages = 0;
+    loop {
+        let stage = PushPull { relaxation: PARTS[n_stages % PARTS.len()] * rule.relaxation, ..rule };
+        n_stages += 1;
+        let max_passes = plan.max_passes.min(report.iterations + STAGE);
+        let ending = sweep.run(&stage, &Plan { max_passes, ..*plan }, run, report);
+        if ending != Ending::PassLimit || max_passes == plan.max_passes {
+            return ending;
+        }
+    }
+}
+
 /// Sweeps, and where a large relaxation leads nowhere, once more with a safe one.
 fn settle(
     sweep: &mut Sweep,
@@ -307,7 +331,7 @@ fn settle(
     run: &mut RunContext,
     report: &mut Report,
 ) -> Result<Ending, Error> {
-    let ending = sweep.run(&rule, plan, run, report)?;
+    let ending = sweep.run(&rule, plan, run, report);
     if ending != Ending::Diverging {
         return Ok(ending);
     }
@@ -316,7 +340,7 @@ fn settle(
     report.notes.push(format!("relaxation {tried} had made no progress by pass {passes}; from the best state on it was {safe}"));
     sweep.return_to_best()?;
     report.triangulations += 1;
-    sweep.run(&rule, &Plan { ends_if_diverging: false, ..*plan }, run, report)
+    Ok(sweep.run(&rule, &Plan { ends_if_diverging: false, ..*plan }, run, report))
 }
 
 /// Of the start and some states, that which misses a target by least, and its measures. Where the density varies the start is none of them: one spot where targets cannot be

@@ -19,7 +19,7 @@ pub(super) fn relax(
     let mut report = Report::new(method, points.n_points());
     let Some((domain, mesh)) = triangulated(points, &mut report, run)? else { return Ok(report) };
     let mut sweep = Sweep::new(mesh);
-    report.outcome = match sweep.run(rule, &Plan::of_passes(n_passes, seed), run, &mut report)? {
+    report.outcome = match sweep.run(rule, &Plan::of_passes(n_passes, seed), run, &mut report) {
         Ending::Converged => Outcome::Converged,
         Ending::Cancelled => Outcome::Cancelled,
         Ending::PassLimit | Ending::Diverging | Ending::Stuck => Outcome::IterationsDone,

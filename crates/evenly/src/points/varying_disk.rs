@@ -13,12 +13,15 @@ use super::point_set::{MAX_POINTS, PointSet};
 use super::poisson_disk::{PoissonDiskParams, poisson_disk, poisson_disk_of};
 use super::radius_bins::{RadiusBins, bins_for, radius};
 use super::random::Random;
+use super::white::white_by_density;
 use crate::density::{Density, Field};
 use crate::error::Error;
 use crate::space::{Domain, Space};
 
 /// Darts are thrown in rounds of as many as points are expected, until a round places fewer than this share of them.
 const FEW: f64 = 0.02;
+/// A set of an exact number is thinned out of one of so many times as many at most.
+const MOST_WANTED: usize = 16;
 /// Darts around each point at the end.
 const TRIES: usize = 40;
 
@@ -71,10 +74,14 @@ pub fn poisson_disk_of_density(space: impl Into<Space>, density: &Density, n_poi
     loop {
         let params = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, wanted) };
         let points = poisson_disk_by_density(space, density, &params)?;
-        if points.n_points() >= n_points || wanted > MAX_POINTS {
+        if points.n_points() >= n_points {
             return eliminate(&points, n_points);
         }
         wanted += wanted / 4;
+        if wanted > (MOST_WANTED * n_points).min(MAX_POINTS) {
+            // Where nearly all of the density is in a few pixels, disks say little.
+            return white_by_density(space, density, n_points, seed);
+        }
     }
 }
 

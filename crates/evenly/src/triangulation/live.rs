@@ -62,9 +62,9 @@ impl LiveMesh {
         })
     }
 
-    /// The same points, put at `places` and triangulated anew.
+    /// The same points, put at `places` and triangulated anew. Where that cannot be, all stays as it was.
     pub fn rebuild(&mut self, places: Vec<DVec2>) -> Result<(), Error> {
-        *self = Self::new(&self.base, self.field.take(), places, std::mem::take(&mut self.order), self.spacing)?;
+        *self = Self::new(&self.base, self.field.clone(), places, self.order.clone(), self.spacing)?;
         Ok(())
     }
 

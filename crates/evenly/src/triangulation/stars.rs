@@ -17,6 +17,8 @@ use crate::star::{Senses, Star, Wall, Wedge};
 
 /// The fewest points that a thread looks at in one go.
 const CHUNK: usize = 1 << 12;
+/// The corners of cells are looked at up to so many times the longest spoke.
+const FAR: f64 = 16.0;
 /// Where the sum of two cotangents is less than this much of its terms, exact arithmetic decides on its sign.
 const DOUBT: f64 = 1e-9;
 
@@ -216,10 +218,14 @@ impl LiveMesh {
         let StarBuffer { star, spokes, senses, corners, .. } = buffer;
         let at = self.mesh.position(v);
         let n = star.n_spokes();
+        // A needle's centre may be anywhere, and the way there endless. Cells of points that are spread at all have none so far away.
+        let longest = spokes.iter().map(|spoke| spoke.way.length_squared()).fold(0.0, f64::max).sqrt();
+        let farthest = self.domain.size.length().min(FAR * longest);
         corners.clear();
         corners.extend((0..n).map(|k| {
             let [along_u, along_v] = star.centre(k);
-            along_u * spokes[k].way + along_v * spokes[star.after(k)].way
+            let centre = along_u * spokes[k].way + along_v * spokes[star.after(k)].way;
+            if centre.is_finite() { centre.clamp_length_max(farthest) } else { DVec2::ZERO }
         }));
         let around = || spokes.iter().map(|spoke| spoke.way).chain(corners.iter().copied());
         let (low, high) = (around().fold(DVec2::ZERO, DVec2::min), around().fold(DVec2::ZERO, DVec2::max));
@@ -261,10 +267,10 @@ impl LiveMesh {
             star.metric.mass = Some(field.mass(at, corners, &mut star.metric.sides) * unit);
         }
         let density = match star.metric.mass {
-            Some(mass) => mass / star.measure_cell(),
+            Some(mass) => mass / star.measure_cell().max(f64::MIN_POSITIVE),
             None => field.at(at),
         };
-        star.metric.scale = density.max(LEAST_DENSITY).sqrt();
+        star.metric.scale = density.clamp(LEAST_DENSITY, 1.0 / LEAST_DENSITY).sqrt();
     }
 }
 

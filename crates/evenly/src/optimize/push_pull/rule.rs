@@ -14,7 +14,6 @@ const SHORT: f64 = 0.25;
 /// The area of a cell of the hexagonal lattice with spacing 1: the mean capacity.
 const MEAN_CAPACITY: f64 = 0.866_025_403_784_438_6;
 
-
 /// The targets, relative to the wanted spacing and the mean capacity, and the part of each move that is made.
 #[derive(Clone, Copy)]
 pub(super) struct PushPull {
