@@ -1,5 +1,7 @@
 //! Points where they are wanted: every method that knows a density, on pictures that are hard in different ways.
 
+#![allow(clippy::unwrap_used)]
+
 use std::f64::consts::TAU;
 
 use evenly::{
@@ -204,6 +206,32 @@ fn odd_domains_pictures_and_numbers_of_points_break_nothing() {
                 if let Ok(points) = poisson_disk_of_density(space, density, n, 1) {
                     assert_eq!(points.n_points(), n);
                     assert_eq!(eliminate(&points, n.div_ceil(2)).unwrap().n_points(), n.div_ceil(2));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn sparse_pictures_and_half_empty_ones_leave_distinct_points_where_there_is_density() {
+    // One pixel in twenty, by a hash; and the left half empty.
+    let sparse = function(60, |p| if ((p[0] * 7919.0 + p[1] * 104_729.0).sin() * 43_758.545_3).fract().abs() < 0.05 { 1.0 } else { 0.0 });
+    let half = function(60, |p| if p[0] < 0.5 { 0.0 } else { 1.0 });
+    for density in [&sparse, &half] {
+        for space in [torus(), rectangle()] {
+            for method in METHODS {
+                // Points that follow it, and points that do not.
+                let even = white_by_density(space, &Density::uniform(), 300, 4).unwrap().with_density(density);
+                for mut points in [start(space, density, 300, 4), even] {
+                    if method.1(&mut points, &mut RunContext::default()).is_err() {
+                        continue;
+                    }
+                    let mut places: Vec<[u64; 2]> = points.positions().iter().map(|p| p.map(f64::to_bits)).collect();
+                    places.sort_unstable();
+                    places.dedup();
+                    assert_eq!(places.len(), 300, "{} {space} {}", method.0, points.positions().len());
+                    let outside = points.positions().iter().find(|p| !p.iter().all(|x| (0.0..=1.0).contains(x)));
+                    assert_eq!(outside, None, "{} {space}", method.0);
                 }
             }
         }

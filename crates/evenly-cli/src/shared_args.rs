@@ -21,7 +21,7 @@ pub struct SpaceArgs {
 
 #[derive(Args)]
 pub struct DensityArgs {
-    /// More points where a picture is lighter; HOW: invert,gamma=G,floor=F
+    /// More points where a picture is lighter; HOW: invert,contrast=C,gamma=G
     ///
     /// The picture, .png, .jpg or .tif, spans the domain, and its luma is the density that is wanted: where it is black there are no points. HOW is any of invert (dark counts
     /// instead), contrast=C (tones are spread from middle grey), gamma=G (raised to this power) and floor=F (the least density, from 0 to 1), with commas between them.

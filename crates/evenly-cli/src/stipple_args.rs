@@ -65,7 +65,7 @@ pub struct Stipple {
     /// Dots of one size, or larger where it is darker, down to half the pen
     #[arg(long, value_enum, default_value = "constant", help_heading = "Drawing")]
     pub sizes: Sizes,
-    /// In which order dots are drawn: on a short way for the pen, so that any part of the drawing is one of fewer dots, or as they come
+    /// In which order dots are drawn: on a short way; so that the first of them show the whole picture, on a long way; or as they come
     #[arg(long, value_enum, default_value = "tour", help_heading = "Drawing")]
     pub order: DrawOrder,
     /// Draw the edges between dots instead of the dots

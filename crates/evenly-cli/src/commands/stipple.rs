@@ -72,10 +72,11 @@ pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
     }
     let n_points: usize = drawn.iter().map(|drawn| drawn.points.n_points()).sum();
     if !args.run.quiet {
-        let [width, height] = paper.size_mm;
+        let [width, height] = paper.size_mm.map(|side| (100.0 * side).round() / 100.0);
         let seconds = begin.elapsed().as_secs_f64();
-        say(format_args!("{}: {n_points} dots, seed {}, {seconds:.2} s", targets.output.name(), args.seed));
-        let way = if args.edges.is_none() { format!("; between dots the pen goes {:.2} m", 1e-3 * pen_up_mm) } else { String::new() };
+        let how = if cancel.is_cancelled() { ", interrupted before they were at rest" } else { "" };
+        say(format_args!("{}: {n_points} dots, seed {}{how}, {seconds:.2} s", targets.output.name(), args.seed));
+        let way = if args.edges.is_none() { format!("; between dots the pen goes {:.2} m", 1e-3 * pen_up_mm.abs()) } else { String::new() };
         say(format_args!("paper {width} x {height} mm, pen {pen_mm:.3} mm{way}"));
     }
     if let Some(report) = &targets.report {
@@ -185,7 +186,8 @@ impl<'a> Drawn<'a> {
         let points = spread(space, &tones.density, n_points, args.method, optimizer.as_deref(), seed, &mut run)?;
         bar.finish_and_clear();
         let points = match args.order {
-            _ if cancel.is_cancelled() => points,
+            // An order that takes long is left out where nobody wants to wait; a pen cannot do without its tour.
+            DrawOrder::Progressive if cancel.is_cancelled() => ordered(&points, &tour(&points))?,
             DrawOrder::Tour => ordered(&points, &tour(&points))?,
             DrawOrder::Progressive => eliminate(&points, points.n_points())?,
             DrawOrder::Input => points,

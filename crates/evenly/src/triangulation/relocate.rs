@@ -26,6 +26,8 @@ impl LiveMesh {
     pub fn relocate(&self, point: u32, by: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         debug_assert!(self.is_free(point, territory));
         let from = self.mesh.position(point);
+        // Where next to no density is wanted, a spacing may be longer than the domain.
+        let by = by.clamp(-0.5 * self.domain.size, 0.5 * self.domain.size);
         let target = self.land(from + by);
         self.go(point, target, territory, buffer)?;
         if self.is_cover() {
