@@ -8,6 +8,7 @@ use evenly::{
     measure, procrustes, push_pull, tour, warp, warp_isotropic, white, white_by_density,
 };
 
+use super::densities::{blobs, hash, waves};
 use super::{best, pool, torus};
 
 pub fn of_density(is_quick: bool) {
@@ -18,18 +19,6 @@ pub fn of_density(is_quick: bool) {
     }
     tone();
     touring();
-}
-
-fn waves(depth: f64) -> impl Fn([f64; 2]) -> f64 {
-    move |p| 1.0 + depth * (TAU * p[0]).cos() * (TAU * p[1]).cos()
-}
-
-fn blobs(floor: f64) -> impl Fn([f64; 2]) -> f64 {
-    let blob = |p: [f64; 2], centre: [f64; 2], width: f64| {
-        let squared: f64 = (0..2).map(|axis| (p[axis] - centre[axis]).abs()).map(|d| d.min(1.0 - d).powi(2)).sum();
-        (-squared / (2.0 * width * width)).exp()
-    };
-    move |p| floor + blob(p, [0.3, 0.3], 0.1) + blob(p, [0.7, 0.6], 0.15)
 }
 
 /// A density at so many pixels a spacing.
@@ -48,13 +37,12 @@ fn pushed(space: Space, density: &Density, n_points: usize, seed: u64) -> (Point
 
 fn converging() {
     const SEEDS: u64 = 5;
-    let hash = |p: [f64; 2]| ((p[0] * 7919.0 + p[1] * 104_729.0).sin() * 43_758.545_3).fract().abs();
     for (name, density) in [
         ("9:1 waves", function(2500, waves(0.8))),
         ("9:1 ramp with a jump", function(2500, |p| 1.0 + 8.0 * p[0])),
         ("21:1 blobs", function(2500, blobs(0.05))),
         ("100:1 blobs", function(2500, blobs(0.01))),
-        ("waves with noise of 3:1 on every pixel", function(2500, move |p| waves(0.8)(p) * (0.5 + hash(p)))),
+        ("waves with noise of 3:1 on every pixel", function(2500, |p| waves(0.8)(p) * (0.5 + hash(p)))),
     ] {
         let runs: Vec<_> = (0..SEEDS).map(|seed| pushed(torus(), &density, 2500, seed)).collect();
         let n_converged = runs.iter().filter(|run| run.1 == Outcome::Converged).count();

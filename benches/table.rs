@@ -5,6 +5,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[path = "../tests/densities.rs"]
+mod densities;
 mod density;
 
 use std::time::{Duration, Instant};

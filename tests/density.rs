@@ -2,8 +2,11 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod densities;
+
 use std::f64::consts::TAU;
 
+use densities::{blobs, hash, waves};
 use evenly::{
     CapacityParams, Density, DistMeshParams, LloydParams, Measures, Outcome, PointSet, ProcrustesParams, PushPullParams, Rectangle, Report,
     RunContext, Space, Torus, WellSpacedParams, capacity, cvt, distmesh, eliminate, farthest_point, lloyd, measure, opt_beta,
@@ -22,30 +25,14 @@ fn function(width: usize, density: impl Fn([f64; 2]) -> f64) -> Density {
     Density::function(&torus(), width, width, density).unwrap()
 }
 
-fn waves(depth: f64) -> impl Fn([f64; 2]) -> f64 {
-    move |p| 1.0 + depth * (TAU * p[0]).cos() * (TAU * p[1]).cos()
-}
-
-fn blobs(floor: f64) -> impl Fn([f64; 2]) -> f64 {
-    let blob = |p: [f64; 2], centre: [f64; 2], width: f64| {
-        let squared: f64 = (0..2).map(|axis| (p[axis] - centre[axis]).abs()).map(|d| d.min(1.0 - d).powi(2)).sum();
-        (-squared / (2.0 * width * width)).exp()
-    };
-    move |p| floor + blob(p, [0.3, 0.3], 0.1) + blob(p, [0.7, 0.6], 0.15)
-}
-
 /// The five densities that Push-Pull is known to converge on: 9:1 waves, a ramp with a jump, blobs of 21:1 and 100:1, and waves with noise on every pixel.
 fn five(width: usize) -> [(&'static str, Density); 5] {
-    let noise = |p: [f64; 2]| {
-        let hash = ((p[0] * 7919.0 + p[1] * 104_729.0).sin() * 43_758.545_3).fract().abs();
-        waves(0.8)(p) * (0.5 + hash)
-    };
     [
         ("waves", function(width, waves(0.8))),
         ("ramp", function(width, |p| 1.0 + 8.0 * p[0])),
         ("blobs 21:1", function(width, blobs(0.05))),
         ("blobs 100:1", function(width, blobs(0.01))),
-        ("noise", function(width, noise)),
+        ("noise", function(width, |p| waves(0.8)(p) * (0.5 + hash(p)))),
     ]
 }
 
@@ -215,7 +202,7 @@ fn odd_domains_pictures_and_numbers_of_points_break_nothing() {
 #[test]
 fn sparse_pictures_and_half_empty_ones_leave_distinct_points_where_there_is_density() {
     // One pixel in twenty, by a hash; and the left half empty.
-    let sparse = function(60, |p| if ((p[0] * 7919.0 + p[1] * 104_729.0).sin() * 43_758.545_3).fract().abs() < 0.05 { 1.0 } else { 0.0 });
+    let sparse = function(60, |p| if hash(p) < 0.05 { 1.0 } else { 0.0 });
     let half = function(60, |p| if p[0] < 0.5 { 0.0 } else { 1.0 });
     for density in [&sparse, &half] {
         for space in [torus(), rectangle()] {

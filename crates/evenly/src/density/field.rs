@@ -23,25 +23,6 @@ pub(crate) struct Field {
     root_scale: f64,
 }
 
-/// A coordinate that lies outside of a pixel, from its start, taken inside: at its border, and the deeper the farther away it was, to a quarter.
-fn inward(x: f64) -> f64 {
-    let depth = |outside: f64| CLEARANCE + 0.25 * outside / (1.0 + outside);
-    if x < 0.0 {
-        depth(-x)
-    } else if x > 1.0 {
-        1.0 - depth(x - 1.0)
-    } else {
-        x.clamp(CLEARANCE, 1.0 - CLEARANCE)
-    }
-}
-
-/// The largest integer that is not above a number.
-#[inline]
-fn floor(x: f64) -> i64 {
-    let towards_zero = x as i64;
-    towards_zero - i64::from((towards_zero as f64) > x)
-}
-
 /// A pixel of a row.
 struct Pixel {
     start: f64,
@@ -385,4 +366,23 @@ impl Field {
         let before = found[1].map(|c| c as i64).or_else(|| wrapped(columns as usize - 1, -1));
         [after, before].into_iter().flatten().map(move |c| c + shift)
     }
+}
+
+/// A coordinate that lies outside of a pixel, from its start, taken inside: at its border, and the deeper the farther away it was, to a quarter.
+fn inward(x: f64) -> f64 {
+    let depth = |outside: f64| CLEARANCE + 0.25 * outside / (1.0 + outside);
+    if x < 0.0 {
+        depth(-x)
+    } else if x > 1.0 {
+        1.0 - depth(x - 1.0)
+    } else {
+        x.clamp(CLEARANCE, 1.0 - CLEARANCE)
+    }
+}
+
+/// The largest integer that is not above a number.
+#[inline]
+fn floor(x: f64) -> i64 {
+    let towards_zero = x as i64;
+    towards_zero - i64::from((towards_zero as f64) > x)
 }

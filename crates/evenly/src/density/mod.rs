@@ -76,8 +76,7 @@ impl Density {
     pub fn function(space: &Space, width: usize, height: usize, density: impl Fn([f64; 2]) -> f64) -> Result<Self, Error> {
         let (origin, size) = (space.origin(), space.size());
         let along = |axis: usize, k: usize, n: usize| origin[axis] + (k as f64 + 0.5) / n as f64 * size[axis];
-        let n_pixels = width.saturating_mul(height).min(Self::MOST_PIXELS + 1);
-        if n_pixels > Self::MOST_PIXELS {
+        if width.saturating_mul(height) > Self::MOST_PIXELS {
             return Self::image(width, height, &[]);
         }
         let rows = (0..height).rev();

@@ -3,6 +3,9 @@
 //! Lloyd, "Least Squares Quantization in PCM", IEEE Transactions on Information Theory 28(2), 1982, doi 10.1109/TIT.1982.1056489; Du, Faber and Gunzburger,
 //! "Centroidal Voronoi Tessellations: Applications and Algorithms", SIAM Review 41(4), 1999, doi 10.1137/S0036144599352836.
 //!
+//! Where the density varies, centroids are weighted by it: Secord, "Weighted Voronoi Stippling", NPAR 2002, doi 10.1145/508530.508537. The energy is least where points are as dense as the
+//! density's root, so over many passes they thin out where they are dense.
+//!
 //! What differs, and why: points move one after the other, and each sees what those before it have done. No move raises the energy, the sum
 //! of squared distances of all places to their points, and a pass gains about twice as much as one in which all move at once.
 //!

@@ -11,7 +11,6 @@
 //! - [`Mode::Fast`] adds momentum, restarted if the energy keeps rising, which the proof does not cover: a better result in a third of the iterations.
 //! - In a rectangle the border is sampled first: corners and evenly spaced points slide along it, and while they find their
 //!   place the triangulation is built anew, so that the triangles cover the whole domain.
-//!
 //! - Where the density varies, a triangle's model is as large as the density at its centroid wants it (the paper's future work). The energy may then rise.
 //!
 //! Cost: O(n) an iteration, the number of iterations does not grow with n. It promises no smallest distance and no regularity.
@@ -95,6 +94,8 @@ const SOFTNESS: f64 = 0.5;
 const GOOD_SIDES: std::ops::RangeInclusive<f64> = 1.0..=1.625;
 /// Changes of the energy below this are rounding: a set at rest sways by them.
 const ROUNDING: f64 = 1e-12;
+/// Where models change size with each move the energy may sway for ever: a run has settled that has found nothing lower in so many iterations.
+const IDLE: usize = 16;
 /// Iterations after which a rectangle's triangulation is built anew, while border points find their place.
 const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 
@@ -207,9 +208,6 @@ struct Decay {
     above_lowest: f64,
     n_idle: usize,
 }
-
-/// Where models change size with each move the energy may sway for ever: a run has settled that has found nothing lower in so many iterations.
-const IDLE: usize = 16;
 
 impl Decay {
     fn new(params: &ProcrustesParams, is_varying: bool) -> Self {
