@@ -14,6 +14,7 @@ mod photograph;
 mod pixels;
 mod render;
 mod scraps;
+mod shapes;
 mod text;
 
 pub use drawing::{Drawing, Layer, Marks};
@@ -25,3 +26,4 @@ pub use image::{read_image, write_image};
 pub use output::{write_figure, write_points};
 pub use photograph::{Photograph, Tone, luma};
 pub use scraps::Scraps;
+pub use shapes::{read_lines, read_polygon};

@@ -13,11 +13,10 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
         std::str::from_utf8(bytes).map_err(|_| Error::content(name, "this is not text; points are read from .txt, .csv and .npy"))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut points = Vec::new();
-    let mut count = None;
+    let mut count: Option<usize> = None;
     let mut is_first = true;
     for (number, line) in (1..).zip(text.lines()) {
         let line = line.split('#').next().unwrap_or_default();
-        let is_separator = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
         let mut fields = line.split(is_separator).filter(|field| !field.is_empty());
         let Some(first) = fields.next() else { continue };
         let at = || format!("{name}:{number}");
@@ -51,6 +50,22 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
         return Err(Error::content(name, "there are no points in it"));
     }
     Ok(points)
+}
+
+/// The point on one line, if there is more than a comment; `place` says where the line stands.
+pub(crate) fn read_line(place: &str, line: &str) -> Result<Option<[f64; 2]>, Error> {
+    let line = line.split('#').next().unwrap_or_default();
+    let fields: Vec<&str> = line.split(is_separator).filter(|field| !field.is_empty()).collect();
+    let problem = |problem| Error::content(place, problem);
+    match fields[..] {
+        [] => Ok(None),
+        [x, y] => Ok(Some([parse(x).map_err(problem)?, parse(y).map_err(problem)?])),
+        _ => Err(problem(format!("{} numbers, expected 2 (x y)", fields.len()))),
+    }
+}
+
+fn is_separator(c: char) -> bool {
+    c.is_whitespace() || matches!(c, ',' | ';' | '"')
 }
 
 /// Whether a word stands for a number, finite or not.

@@ -57,6 +57,14 @@ pub enum Error {
     /// More points than the indices can hold.
     #[error("{0} points are too many; at most {1} are possible")]
     TooManyPoints(usize, usize),
+    /// A border that encloses no domain, or leaves in doubt which.
+    #[error("the polygon {problem}, at ({}, {})", at[0], at[1])]
+    InvalidPolygon {
+        /// What is wrong with it.
+        problem: String,
+        /// Where, in input units.
+        at: [f64; 2],
+    },
     /// Points from which no triangulation can be made: fewer than three, or all on one line.
     #[error("{0}")]
     Degenerate(String),

@@ -19,8 +19,10 @@ mod density;
 mod error;
 mod imaging;
 mod measure;
+mod mesh;
 mod optimize;
 mod points;
+mod polygon;
 mod predicates;
 mod run;
 mod space;
@@ -39,6 +41,7 @@ pub use measure::{
     BorderMeasures, Measures, PowerSpectrum, RadialSpectrum, Tessellation, differential_spectrum, local_spacings, measure, power_spectrum,
     radial_spectrum, tessellate,
 };
+pub use mesh::{EdgeKind, Mesh, MeshEdge, MeshParams, MeshQuality, mesh, mesh_quality};
 pub use optimize::{
     CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Mode, OptBetaParams, ProcrustesParams, PushPullParams,
     PushPullPreset, Targets, UnmetTarget, WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh, farthest_point, lloyd, opt_beta,
@@ -48,6 +51,7 @@ pub use points::{
     CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,
     poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, warp, warp_isotropic, white, white_by_density,
 };
+pub use polygon::Polygon;
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Space, Torus};
 pub use sweep::Schedule;

@@ -20,6 +20,7 @@ pub use farthest_point::{FarthestPointParams, farthest_point};
 pub use lloyd::{LloydParams, lloyd};
 pub use opt_beta::{OptBetaParams, opt_beta};
 pub use procrustes::{Mode, ProcrustesParams, procrustes};
+pub(crate) use push_pull::PushPull;
 pub use push_pull::{PushPullParams, PushPullPreset, push_pull};
 pub use targets::{Targets, UnmetTarget};
 pub use well_spaced::{WellSpacedParams, angle_bounds_deg, well_spaced};

@@ -24,7 +24,7 @@ mod rule;
 use serde::Serialize;
 
 use self::frontier::{Known, nearest_known};
-use self::rule::PushPull;
+pub(crate) use self::rule::PushPull;
 use super::prepare::{keep_distinct, triangulated};
 use super::targets::{ROUNDING, Targets, UnmetTarget, is_lost_to_rounding};
 use crate::error::Error;

@@ -134,7 +134,7 @@ impl Sweep {
             }
             let pass = self.unrest.len();
             if pass.is_power_of_two() || pass.is_multiple_of(RENEWAL) {
-                debug_assert_eq!(self.mesh.triangulation().check(), Ok(()));
+                debug_assert_eq!(self.mesh.check(), Ok(()));
                 self.cells = Cells::new(&mut self.mesh);
             }
             let work = match plan.schedule {
@@ -256,6 +256,11 @@ impl Sweep {
     /// The places of the points, as the mesh has them.
     pub fn places(&self) -> Vec<DVec2> {
         self.mesh.points()
+    }
+
+    /// The mesh as it is.
+    pub fn into_mesh(self) -> LiveMesh {
+        self.mesh
     }
 
     /// The caller's index of each point, and its place in the last state.

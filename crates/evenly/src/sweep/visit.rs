@@ -99,18 +99,21 @@ pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territo
     let scale = star.metric.scale;
     let longest = LONGEST / scale;
     for (spoke, &length) in spokes.iter().zip(&star.lengths) {
-        if length == spoke.length {
+        if length == spoke.length || spoke.is_echo {
             continue;
         }
-        let point = mesh.point(spoke.vertex);
+        let point = if spoke.vertex == MIRROR { v } else { mesh.point(spoke.vertex) };
         let is_pushed = mesh.has_density() && spoke.vertex != MIRROR;
         let longest = if is_pushed { LONGEST_PUSH * mesh.local_spacing(point) / mesh.spacing() } else { longest };
         let change = (length - spoke.length).clamp(-longest.min(NEARER * spoke.length), longest);
         if change.abs() * scale <= STILL || spoke.length == 0.0 {
             continue;
         }
+        let by = mesh.along(point, change / spoke.length * spoke.way);
+        if by == DVec2::ZERO {
+            continue;
+        }
         unrest.add_move(change.abs() * scale);
-        let by = change / spoke.length * spoke.way;
         if spoke.vertex == MIRROR {
             // The image goes as far as the vertex, to the other side.
             own -= 0.5 * by;
@@ -118,10 +121,15 @@ pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territo
             moves.push((point, by));
         }
     }
+    let own = mesh.along(v, own);
     let own_length = own.length() / mesh.spacing() * scale;
     if own_length > STILL {
         unrest.add_move(own_length);
         moves.push((v, own.clamp_length_max(longest * mesh.spacing())));
+    }
+    if moves.is_empty() && mesh.holds_points() {
+        // What is held here cannot be mended.
+        return Ok(Unrest::default());
     }
     Ok(unrest)
 }

@@ -16,6 +16,12 @@ impl Triangulation {
         self.check_hull()
     }
 
+    /// Proves that what a border encloses is triangulated, as long as the border does not cross itself: twins and orientation.
+    pub fn check_bounded(&self) -> Result<(), String> {
+        self.check_twins()?;
+        self.check_orientation()
+    }
+
     /// Proves [`Self::check`] and the Delaunay property: no vertex opposite an edge lies inside its circumcircle.
     pub fn check_delaunay(&self) -> Result<(), String> {
         self.check()?;

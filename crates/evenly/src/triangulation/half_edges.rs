@@ -85,14 +85,14 @@ impl HalfEdges {
         outgoing
     }
 
-    /// Keeps the triangles for which `first` names a corner, and sorts them by the vertex there, with which each then begins.
+    /// Keeps the triangles for which `first`, given a triangle's number and corners, names a corner, and sorts them by the vertex there, with which each then begins.
     /// Edges to the others become borders.
-    pub fn filtered(&self, first: impl Fn([u32; 3]) -> Option<usize>) -> Self {
+    pub fn filtered(&self, first: impl Fn(usize, [u32; 3]) -> Option<usize>) -> Self {
         // A counting sort.
         let n_vertices = self.origin.iter().max().map_or(0, |&v| v as usize + 1);
         let mut start = vec![0u32; n_vertices + 1];
-        for corners in self.triangles() {
-            if let Some(first) = first(corners) {
+        for (t, corners) in self.triangles().enumerate() {
+            if let Some(first) = first(t, corners) {
                 start[corners[first] as usize + 1] += 1;
             }
         }
@@ -103,7 +103,7 @@ impl HalfEdges {
         let mut kept = Self { origin: vec![0; 3 * n_kept], twin: vec![BORDER; 3 * n_kept] };
         let mut slots = vec![BORDER; self.n_triangles()];
         for (t, corners) in self.triangles().enumerate() {
-            let Some(first) = first(corners) else { continue };
+            let Some(first) = first(t, corners) else { continue };
             let slot = &mut start[corners[first] as usize];
             for k in 0..3 {
                 let h = 3 * t + (first + k) % 3;
@@ -168,9 +168,9 @@ mod tests {
     #[test]
     fn filtering_orders_triangles_and_opens_borders() {
         let mesh = square();
-        let all = mesh.filtered(|t| Some(smallest(t)));
+        let all = mesh.filtered(|_, t| Some(smallest(t)));
         assert_eq!(all.twin.iter().filter(|&&t| t != BORDER).count(), 2);
-        let one = mesh.filtered(|t| t.contains(&3).then_some(0));
+        let one = mesh.filtered(|_, t| t.contains(&3).then_some(0));
         assert_eq!(one, HalfEdges { origin: vec![0, 2, 3], twin: vec![BORDER; 3] });
     }
 }

@@ -8,7 +8,9 @@ use rayon::prelude::*;
 use super::delaunay::delaunay;
 use super::frame::{FRAME, framed};
 use super::half_edges::{BORDER, next};
+use super::held::{Bonds, Held};
 use super::mesh::Triangulation;
+use super::planar::{Crossing, planar};
 use super::shared::{SharedMesh, Territory};
 use crate::density::Field;
 use crate::error::Error;
@@ -32,6 +34,8 @@ pub(crate) struct LiveMesh {
     pub(super) spacing: f64,
     /// The density, where it varies.
     pub(super) field: Option<Field>,
+    /// What holds the points of a mesh with a border.
+    pub(super) held: Option<Held>,
     /// Whether a point and its copies have gone different ways, or the cover has become too small.
     pub(super) is_torn: AtomicBool,
 }
@@ -58,13 +62,45 @@ impl LiveMesh {
             n_live: (positions.len() - n_frame) as u32,
             spacing,
             field,
+            held: None,
             is_torn: AtomicBool::new(false),
+        })
+    }
+
+    /// The constrained Delaunay triangulation of points of a domain with a border. Its points are the triangulation's vertices: parts of the inside that touch in a
+    /// point have one each there.
+    ///
+    /// # Errors
+    /// [`Crossing`] where two segments between the points cross.
+    pub fn bounded(base: &Domain, points: &[DVec2], bonds: Bonds, spacing: f64) -> Result<Self, Crossing> {
+        let planar = planar(bonds.graph(points))?;
+        let mesh = SharedMesh::new(&planar.half_edges, &planar.positions);
+        Ok(Self {
+            mesh,
+            base: *base,
+            domain: *base,
+            copies: [1, 1],
+            n_live: planar.positions.len() as u32,
+            spacing,
+            field: None,
+            held: Some(Held::new(bonds, &planar)),
+            is_torn: AtomicBool::new(false),
+            order: planar.source,
         })
     }
 
     /// The same points, put at `places` and triangulated anew. Where that cannot be, all stays as it was.
     pub fn rebuild(&mut self, places: Vec<DVec2>) -> Result<(), Error> {
-        *self = Self::new(&self.base, self.field.clone(), places, self.order.clone(), self.spacing)?;
+        *self = match &self.held {
+            None => Self::new(&self.base, self.field.clone(), places, self.order.clone(), self.spacing)?,
+            Some(held) => {
+                let bonds = held.bonds();
+                let mut points = vec![DVec2::ZERO; bonds.tracks.len()];
+                held.source.iter().zip(places).for_each(|(&point, place)| points[point as usize] = place);
+                let rebuilt = Self::bounded(&self.base, &points, bonds, self.spacing);
+                rebuilt.map_err(|Crossing(_)| Error::Degenerate("the border has come to cross itself".into()))?
+            }
+        };
         Ok(())
     }
 
@@ -90,13 +126,31 @@ impl LiveMesh {
         self.spacing
     }
 
-    /// Whether a density varies.
+    /// Whether the wanted spacing varies.
     pub fn has_density(&self) -> bool {
-        self.field.is_some()
+        self.field.is_some() || self.held.is_some()
+    }
+
+    /// The bonds as they are now, where there are some, and the point that each vertex stands for.
+    pub fn bonds(&self) -> Option<(Bonds, &[u32])> {
+        self.held.as_ref().map(|held| (held.bonds(), &held.source[..]))
+    }
+
+    /// Whether there are borders, and points that cannot go everywhere.
+    pub fn holds_points(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// The part of a move that a point can make.
+    pub fn along(&self, point: u32, by: DVec2) -> DVec2 {
+        self.held.as_ref().map_or(by, |held| held.along(point, by))
     }
 
     /// The spacing that is wanted where a point is.
     pub fn local_spacing(&self, point: u32) -> f64 {
+        if let Some(held) = &self.held {
+            return held.size(point);
+        }
         self.field.as_ref().map_or(self.spacing, |field| self.spacing / field.at(self.position(point)).max(LEAST_DENSITY).sqrt())
     }
 
@@ -163,7 +217,9 @@ impl LiveMesh {
         let [p, q, r, s] = self.mesh.quadrilateral(h);
         let from = self.mesh.position(p);
         let [q, r, s] = [self.spoke(from, q), self.spoke(from, r), self.spoke(from, s)];
-        if !is_in_circle(q, r, s) {
+        if !is_in_circle(q, r, s)
+            || self.held.as_ref().is_some_and(|held| held.is_line(self.mesh.origin(h), self.mesh.origin(self.mesh.twin(h))))
+        {
             return false;
         }
         let is_spoke = self.domain.is_spoke(s - r);
@@ -193,7 +249,7 @@ impl LiveMesh {
                 n_flips += 1;
             }
         }
-        debug_assert!(*self.is_torn.get_mut() || self.triangulation().check_delaunay() == Ok(()));
+        debug_assert!(*self.is_torn.get_mut() || self.held.is_some() || self.triangulation().check_delaunay() == Ok(()));
         n_flips
     }
 
@@ -206,6 +262,12 @@ impl LiveMesh {
             copies: self.copies,
             order: self.order.clone(),
         }
+    }
+
+    /// Proves what the mesh claims to be, but for the Delaunay property.
+    pub fn check(&self) -> Result<(), String> {
+        let triangulation = self.triangulation();
+        if self.holds_points() { triangulation.check_bounded() } else { triangulation.check() }
     }
 
     /// The positions of the points.

@@ -37,7 +37,7 @@ impl Triangulation {
 
     /// The dual of the Voronoi diagram clipped to the domain: the triangles whose circumcentre lies inside. All of them on a torus.
     pub fn clipped(&self) -> HalfEdges {
-        self.half_edges.filtered(|corners| self.has_centre_inside(corners).then_some(smallest(corners)))
+        self.half_edges.filtered(|_, corners| self.has_centre_inside(corners).then_some(smallest(corners)))
     }
 
     fn has_centre_inside(&self, corners: [u32; 3]) -> bool {

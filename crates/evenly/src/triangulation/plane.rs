@@ -9,9 +9,10 @@ use crate::error::Error;
 use crate::points::Random;
 use crate::space::Domain;
 
-struct Site {
+/// A point for `spade`, and its index.
+pub(super) struct Site {
     position: Point2<f64>,
-    index: u32,
+    pub index: u32,
 }
 
 impl HasPosition for Site {
@@ -21,16 +22,25 @@ impl HasPosition for Site {
     }
 }
 
+/// Points as sites.
+pub(super) fn sites(points: impl Iterator<Item = DVec2>) -> Vec<Site> {
+    points.zip(0..).map(|(p, index)| Site { position: Point2::new(p.x, p.y), index }).collect()
+}
+
 /// The exact Delaunay triangulation of distinct points, by crate `spade`; vertex `i` is point `i`. Points on one line give no triangles.
 pub(super) fn delaunay(points: impl Iterator<Item = DVec2>) -> Result<HalfEdges, Error> {
-    let sites = points.enumerate().map(|(index, p)| Site { position: Point2::new(p.x, p.y), index: index as u32 });
-    let sites: Vec<Site> = sites.collect();
+    let sites = sites(points);
     let n_sites = sites.len();
     let mesh = DelaunayTriangulation::<Site>::bulk_load(sites).map_err(|e| Error::Degenerate(e.to_string()))?;
     if mesh.num_vertices() != n_sites {
         let n_lost = n_sites - mesh.num_vertices();
         return Err(Error::Degenerate(format!("{n_lost} points share their place with another")));
     }
+    Ok(brought_in(&mesh).0)
+}
+
+/// What `spade` has made as flat half-edges, and for each of its directed edges which of them it is.
+pub(super) fn brought_in(mesh: &impl spade::Triangulation<Vertex = Site>) -> (HalfEdges, Vec<u32>) {
     let mut slot = vec![BORDER; mesh.num_directed_edges()];
     let mut origin = Vec::with_capacity(3 * mesh.num_inner_faces());
     for face in mesh.inner_faces() {
@@ -46,7 +56,7 @@ pub(super) fn delaunay(points: impl Iterator<Item = DVec2>) -> Result<HalfEdges,
             twin[h as usize] = slot[edge.rev().fix().index()];
         }
     }
-    Ok(HalfEdges { origin, twin })
+    (HalfEdges { origin, twin }, slot)
 }
 
 /// How far points are shaken for `delaunator`, in mean spacings.

@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use glam::DVec2;
 
-use super::half_edges::next;
+use super::half_edges::{BORDER, next};
 use super::live::{LiveMesh, Outside};
 use super::shared::Territory;
 use super::stars::StarBuffer;
@@ -16,6 +16,8 @@ use super::stars::StarBuffer;
 const ROOM: f64 = 0.02;
 /// The part of the way to the first triangle without area that a stage goes.
 const STAGE: f64 = 0.9;
+/// Points on a rail come no nearer to each other than this, in normalised units.
+const LEAST_GAP: f64 = 1e-10;
 /// More stages than ever needed: a vertex that is not there by then stays where it is.
 const MAX_STAGES: usize = 40;
 
@@ -28,7 +30,8 @@ impl LiveMesh {
         let from = self.mesh.position(point);
         // Where next to no density is wanted, a spacing may be longer than the domain.
         let by = by.clamp(-0.5 * self.domain.size, 0.5 * self.domain.size);
-        let target = self.land(from + by);
+        let target = self.land(point, from, from + by);
+        let target = if self.is_on_rail(point) { self.keep_order(point, target, territory, buffer)? } else { target };
         self.go(point, target, territory, buffer)?;
         if self.is_cover() {
             // On the grid, so that copies move alike to the bit.
@@ -44,24 +47,63 @@ impl LiveMesh {
         Ok(())
     }
 
-    /// The place nearest to `q` where a point may stand.
-    fn land(&self, q: DVec2) -> DVec2 {
+    fn is_on_rail(&self, point: u32) -> bool {
+        self.held.as_ref().is_some_and(|held| held.is_on_rail(point))
+    }
+
+    /// Where a vertex on a rail may go so that it stays between its neighbours there, whatever rounding makes of triangles that are nearly flat.
+    fn keep_order(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<DVec2, Outside> {
+        let ring = &mut buffer.moving;
+        self.walk(v, territory, ring)?;
+        let from = self.mesh.position(v);
+        let way = target - from;
+        let mut share = 1f64;
+        for (k, spoke) in ring.iter().enumerate() {
+            let is_on_border = ring[ring.len() - 1].half_edge == BORDER && (k == 0 || k + 1 == ring.len());
+            if is_on_border || self.held.as_ref().is_some_and(|held| held.is_line(v, spoke.vertex)) {
+                let nearer = way.dot(spoke.way) / spoke.squared;
+                let most = if spoke.squared > LEAST_GAP * LEAST_GAP { STAGE } else { 0.0 };
+                if nearer > most {
+                    share = share.min(most / nearer);
+                }
+            }
+        }
+        Ok(if share < 1.0 { self.land(v, from, from + share * way) } else { target })
+    }
+
+    /// The place nearest to `q` where a point that is at `from` may stand.
+    fn land(&self, point: u32, from: DVec2, q: DVec2) -> DVec2 {
+        if let Some(held) = &self.held {
+            return self.domain.land(held.land(point, from, q));
+        }
         let place = self.domain.land(q);
         self.field.as_ref().map_or(place, |field| self.domain.land(field.settle(place)))
     }
 
     /// Moves a vertex to its target, or as far as it gets.
     fn go(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        if self.step(v, target, territory)? { Ok(()) } else { self.go_in_stages(v, target, territory, buffer) }
+        if !self.step(v, target, territory)? {
+            self.go_in_stages(v, target, territory, buffer)?;
+        }
+        if let Some(held) = &self.held {
+            held.arrive(v, self.mesh.position(v));
+        }
+        Ok(())
     }
 
     /// Moves a vertex at once, if all triangles around keep some area.
     fn step(&self, v: u32, target: DVec2, territory: Territory) -> Result<bool, Outside> {
         let area = self.spacing * self.spacing;
-        let room = ROOM * self.field.as_ref().map_or(area, |field| area / field.at(target).max(1.0));
+        let room = ROOM
+            * match (&self.field, &self.held) {
+                (Some(field), _) => area / field.at(target).max(1.0),
+                (None, Some(held)) => held.size(v) * held.size(v),
+                (None, None) => area,
+            };
         let first = self.mesh.outgoing(v);
         let mut half_edge = first;
-        let mut before = self.spoke(target, self.mesh.origin(next(first)));
+        let start = self.mesh.origin(next(first));
+        let mut before = self.spoke(target, start);
         loop {
             let (vertex, turned) = self.mesh.turn(half_edge);
             if !self.is_free(vertex, territory) {
@@ -74,6 +116,13 @@ impl LiveMesh {
             }
             (half_edge, before) = (turned, way);
             if half_edge == first {
+                break;
+            }
+            if half_edge == BORDER {
+                if !self.is_free(start, territory) {
+                    return Err(Outside);
+                }
+                self.soil(start);
                 break;
             }
         }
@@ -96,10 +145,11 @@ impl LiveMesh {
             }
             // Twice a triangle's area falls by t way x rim on the part t of the way.
             let ring = &buffer.moving;
-            let rims = ring.iter().enumerate().map(|(k, spoke)| (spoke, ring.get(k + 1).unwrap_or(&ring[0])));
+            let all = ring.iter().enumerate().filter(|(_, spoke)| spoke.half_edge != BORDER);
+            let rims = all.map(|(k, spoke)| (spoke, ring.get(k + 1).unwrap_or(&ring[0])));
             let losses = rims.clone().map(|(spoke, after)| (spoke.cross, way.perp_dot(after.way - spoke.way)));
             let clear = losses.filter(|&(_, loss)| loss > 0.0).map(|(area, loss)| area / loss).fold(f64::INFINITY, f64::min);
-            let to = if clear > 1.0 { target } else { self.domain.land(from + STAGE * clear * way) };
+            let to = if clear > 1.0 { target } else { self.land(v, from, from + STAGE * clear * way) };
             let ways = rims.map(|(spoke, after)| (self.spoke(to, spoke.vertex), self.spoke(to, after.vertex)));
             if to == from || !{ ways }.all(|(u, v)| self.domain.is_upright(u, v)) {
                 return Ok(());

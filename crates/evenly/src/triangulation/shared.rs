@@ -22,7 +22,7 @@ pub(super) struct SharedMesh {
 struct Vertex {
     x: AtomicU64,
     y: AtomicU64,
-    /// A half-edge that leaves it.
+    /// A half-edge that leaves it; on a border that which lies there.
     outgoing: AtomicU32,
     /// Its block, and whether it is dirty.
     mark: AtomicU32,
@@ -117,7 +117,7 @@ impl SharedMesh {
         }
     }
 
-    /// A half-edge that leaves `v`.
+    /// A half-edge that leaves `v`; on a border that which lies there, the first counter-clockwise.
     #[inline]
     pub fn outgoing(&self, v: u32) -> u32 {
         self.vertices[v as usize].outgoing.load(Relaxed)
@@ -171,6 +171,8 @@ impl SharedMesh {
         let [p, q, r, s] = self.quadrilateral(h);
         let (r_edge, s_edge) = (prev(h), prev(t));
         let (across_t, across_h) = (self.twin(r_edge), self.twin(s_edge));
+        // On a border walks begin there, and half-edges on it may come to another place.
+        let ends_on_border = [p, q].map(|v| self.twin(self.outgoing(v)) == BORDER);
         self.set(h, s, across_h);
         self.set(t, r, across_t);
         self.set(r_edge, r, s_edge);
@@ -180,7 +182,15 @@ impl SharedMesh {
                 self.set(across, self.origin(across), edge);
             }
         }
-        self.vertices[p as usize].outgoing.store(next(t), Relaxed);
-        self.vertices[q as usize].outgoing.store(next(h), Relaxed);
+        for (v, is_on_border, edge) in [(p, ends_on_border[0], next(t)), (q, ends_on_border[1], next(h))] {
+            if !is_on_border {
+                self.vertices[v as usize].outgoing.store(edge, Relaxed);
+            }
+        }
+        for (v, twin, moved) in [(s, across_h, h), (r, across_t, t)] {
+            if twin == BORDER {
+                self.vertices[v as usize].outgoing.store(moved, Relaxed);
+            }
+        }
     }
 }

@@ -7,7 +7,10 @@ use glam::DVec2;
 pub(crate) struct Spoke {
     /// A neighbour, or [`MIRROR`].
     pub vertex: u32,
+    /// The half-edge there; [`BORDER`](super::half_edges::BORDER) for the last one of a fan.
     pub(super) half_edge: u32,
+    /// Whether it is there once more, across the border on which the vertex is: the neighbour itself is seen too.
+    pub is_echo: bool,
     pub way: DVec2,
     /// In spacings; only in a star.
     pub length: f64,

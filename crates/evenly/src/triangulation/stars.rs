@@ -6,7 +6,8 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::half_edges::next;
+use super::half_edges::{BORDER, next};
+use super::held::Held;
 use super::live::{LEAST_DENSITY, LiveMesh, Outside};
 use super::shared::Territory;
 use super::spoke::{MIRROR, Spoke};
@@ -57,6 +58,9 @@ impl LiveMesh {
         self.fill(v, buffer);
         if let Some(field) = &self.field {
             self.weigh(field, v, buffer);
+        }
+        if let Some(held) = &self.held {
+            self.scale_sizes(held, v, buffer);
         }
         Ok(())
     }
@@ -144,7 +148,7 @@ impl LiveMesh {
     }
 
     /// Goes once around `v`, counter-clockwise.
-    fn walk(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke>) -> Result<(), Outside> {
+    pub(super) fn walk(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke>) -> Result<(), Outside> {
         ring.clear();
         let at = self.mesh.position(v);
         let first = self.mesh.outgoing(v);
@@ -157,9 +161,16 @@ impl LiveMesh {
             let (after, turned) = self.mesh.turn(half_edge);
             let way_after = self.spoke(at, after);
             let (dot, cross) = (way.dot(way_after), way.perp_dot(way_after));
-            ring.push(Spoke { vertex, half_edge, way, length: 0.0, squared: way.length_squared(), dot, cross });
+            ring.push(Spoke { vertex, half_edge, way, squared: way.length_squared(), dot, cross, ..Spoke::default() });
             (vertex, half_edge, way) = (after, turned, way_after);
             if half_edge == first {
+                return Ok(());
+            }
+            if half_edge == BORDER {
+                if !self.is_free(vertex, territory) {
+                    return Err(Outside);
+                }
+                ring.push(Spoke { vertex, half_edge, way, squared: way.length_squared(), ..Spoke::default() });
                 return Ok(());
             }
         }
@@ -173,7 +184,7 @@ impl LiveMesh {
         for (k, spoke) in ring.iter().enumerate() {
             let after = ring.get(k + 1).unwrap_or(&ring[0]);
             let is_doubted = is_doubtful((after.squared - spoke.dot) * before.cross, (before.squared - before.dot) * spoke.cross);
-            if is_doubted && self.is_illegal(spoke.half_edge) {
+            if is_doubted && spoke.half_edge != BORDER && self.is_illegal(spoke.half_edge) {
                 return Some(spoke.half_edge);
             }
             before = spoke;
@@ -199,7 +210,9 @@ impl LiveMesh {
             let cos = spoke.dot * area_scale * over_product;
             star.wedges.push(Wedge { cos, sin: cross * over_product, cosecant: product * product * inverse });
         }
-        if !self.domain.is_periodic {
+        if self.held.is_some() {
+            close(star, spokes);
+        } else if !self.domain.is_periodic {
             let at = self.mesh.position(v);
             let wall = at.min(self.domain.size - at).min_element() * scale;
             let is_clear = spokes.iter().zip(0..).all(|(spoke, k)| spoke.vertex < self.n_live && star.is_covered(k, wall));
@@ -212,7 +225,43 @@ impl LiveMesh {
     }
 }
 
+/// Where the spokes are a fan at a border, what they show is seen there once more, as in a mirror: the star so goes all around, and rules need not know of borders. At a
+/// corner it goes around by twice the corner's angle.
+fn close(star: &mut Star, spokes: &mut Vec<Spoke>) {
+    let n = spokes.len();
+    if spokes[n - 1].half_edge != BORDER {
+        return;
+    }
+    star.wedges.truncate(n - 1);
+    let axis = spokes[0].way.normalize_or_zero();
+    for k in (0..n - 1).rev() {
+        star.wedges.push(star.wedges[k]);
+        if k > 0 {
+            let way = 2.0 * axis * spokes[k].way.dot(axis) - spokes[k].way;
+            spokes.push(Spoke { way, is_echo: true, ..spokes[k] });
+            star.lengths.push(star.lengths[k]);
+            star.is_mirror.push(false);
+        }
+    }
+}
+
 impl LiveMesh {
+    /// Finds what the star's lengths, radii and area are in the spacings that are wanted at its vertices.
+    fn scale_sizes(&self, held: &Held, v: u32, buffer: &mut StarBuffer) {
+        let StarBuffer { star, spokes, .. } = buffer;
+        let own = held.size(v);
+        let n = spokes.len();
+        for (k, spoke) in spokes.iter().enumerate() {
+            let (size, after) = (held.size(spoke.vertex), held.size(spokes[if k + 1 == n { 0 } else { k + 1 }].vertex));
+            let root = 2.0 * self.spacing / (own + size);
+            star.metric.spokes.push(root);
+            star.metric.sides.push(root * root);
+            star.metric.radii.push(3.0 * self.spacing / (own + size + after));
+        }
+        star.metric.scale = self.spacing / own;
+        star.metric.mass = Some(star.measure_cell() * star.metric.scale * star.metric.scale * held.fullness(v));
+    }
+
     /// Finds what the star's lengths, radii and area are in the measure of the density.
     fn weigh(&self, field: &Field, v: u32, buffer: &mut StarBuffer) {
         let StarBuffer { star, spokes, senses, corners, .. } = buffer;

@@ -90,7 +90,7 @@ fn glue(domain: &Domain, points: &[DVec2], halo: DVec2, is_exact: bool) -> Optio
     };
 
     // A triangle is ours where its smallest vertex is no copy.
-    let mut ours = plane.filtered(|corners| {
+    let mut ours = plane.filtered(|_, corners| {
         let first = first_corner(corners.map(base));
         (corners[first] < n).then_some(first)
     });
@@ -137,7 +137,7 @@ fn unrolled(ours: &HalfEdges, n: u32, copies: [u32; 2], place: impl Fn(u32) -> (
         }));
     }
     let twin = vec![BORDER; origin.len()];
-    HalfEdges { origin, twin }.filtered(|t| Some(smallest(t)))
+    HalfEdges { origin, twin }.filtered(|_, t| Some(smallest(t)))
 }
 
 /// Joins borders that have the same ends; false if some border is left.

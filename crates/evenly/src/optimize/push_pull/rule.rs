@@ -16,7 +16,7 @@ const MEAN_CAPACITY: f64 = 0.866_025_403_784_438_6;
 
 /// The targets, relative to the wanted spacing and the mean capacity, and the part of each move that is made.
 #[derive(Clone, Copy)]
-pub(super) struct PushPull {
+pub(crate) struct PushPull {
     pub min_distance: Option<f64>,
     pub coverage_radius: Option<f64>,
     pub capacity_tolerance: Option<f64>,

@@ -1,0 +1,19 @@
+//! Rings as text: `x y` a line, a blank line between rings; `#` comments.
+
+use super::{Points, Shapes};
+use crate::{Error, text};
+
+pub(super) fn read(name: &str, text: &str) -> Result<Shapes, Error> {
+    let mut rings: Vec<Points> = vec![Vec::new()];
+    for (number, line) in (1..).zip(text.lines()) {
+        if line.trim().is_empty() {
+            rings.push(Vec::new());
+            continue;
+        }
+        if let Some(point) = text::read_line(&format!("{name}:{number}"), line)? {
+            rings.last_mut().into_iter().for_each(|ring| ring.push(point));
+        }
+    }
+    rings.retain(|ring| !ring.is_empty());
+    Ok(Shapes { rings, ..Shapes::default() })
+}

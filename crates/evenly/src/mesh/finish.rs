@@ -1,0 +1,64 @@
+//! From settled points to a [`Mesh`](super::Mesh): what is still thin is refined, caps come back, and all is in input units.
+
+use std::collections::HashMap;
+
+use super::caps::Cap;
+use super::outline::{Of, Outline};
+use super::settle::Settled;
+use super::{EdgeKind, Mesh, MeshEdge};
+use crate::space::Domain;
+use crate::triangulation::{BORDER, Planar, Refinement, Refining, Triangulation};
+
+/// Angles below about 25.5 degrees are refined: 1 / (2 sin 25.5).
+const ASPECT: f64 = 1.161;
+
+/// The mesh of settled points, refined where triangles are thin and segments not shorter than `floor`; and how many points that took.
+pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: &Domain, floor: f64) -> (Mesh, usize) {
+    let Settled { triangulation, mut corners, edges, .. } = settled;
+    let Triangulation { half_edges, positions, .. } = triangulation;
+    let n_settled = positions.len();
+    let planar = Planar { half_edges, positions, ..Planar::default() };
+    let refining =
+        Refining { longest: f64::INFINITY, aspect: ASPECT, floor, halves_all: false, max_vertices: 2 * n_settled + 1000, largest: None };
+    let Refinement { half_edges, positions, segments } = Refinement::run(planar, edges.into_iter().collect(), refining);
+    corners.resize(positions.len(), BORDER);
+
+    // Vertices of one corner are one; those as they were given keep their bits.
+    let mut mesh = Mesh::default();
+    let mut numbers = HashMap::new();
+    let mut vertices = Vec::with_capacity(positions.len());
+    for (&corner, &p) in corners.iter().zip(&positions) {
+        let number = if corner == BORDER { mesh.vertices.len() } else { *numbers.entry(corner).or_insert(mesh.vertices.len()) };
+        vertices.push(number);
+        if number == mesh.vertices.len() {
+            mesh.vertices.push(outline.given.get(corner as usize).copied().unwrap_or_else(|| domain.restore(p)));
+        }
+    }
+    mesh.triangles = half_edges.triangles().map(|t| t.map(|v| vertices[v as usize])).collect();
+
+    // In the order of half-edges, so that it is always the same.
+    let mut bases: HashMap<u32, Vec<[usize; 2]>> = HashMap::new();
+    for h in 0..half_edges.origin.len() as u32 {
+        let ends = [half_edges.origin[h as usize], half_edges.target(h)];
+        let Some(&number) = segments.get(&ends) else { continue };
+        let ends = ends.map(|v| vertices[v as usize]);
+        match outline.segments[number as usize].of {
+            Of::Border(segment) => mesh.edges.push(MeshEdge { ends, kind: EdgeKind::Border { segment: segment as usize } }),
+            Of::Line(line) => mesh.edges.push(MeshEdge { ends, kind: EdgeKind::Line { line: line as usize } }),
+            Of::Base => bases.entry(number).or_default().push(ends),
+        }
+    }
+    for cap in caps {
+        let tip = mesh.vertices.len();
+        mesh.vertices.push(outline.given[cap.corners[0] as usize]);
+        let sides = bases.get(&cap.base).map(Vec::as_slice).unwrap_or_default();
+        mesh.triangles.extend(sides.iter().map(|&[from, to]| [tip, to, from]));
+        let [p, q] = [cap.corners[1], cap.corners[2]].map(|end| numbers[&end]);
+        for (ends, leg) in [([q, tip], cap.legs[0]), ([tip, p], cap.legs[1])] {
+            if let Of::Border(segment) = leg {
+                mesh.edges.push(MeshEdge { ends, kind: EdgeKind::Border { segment: segment as usize } });
+            }
+        }
+    }
+    (mesh, positions.len() - n_settled)
+}

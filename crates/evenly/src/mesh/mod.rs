@@ -1,0 +1,233 @@
+//! [`mesh`]: triangles in a polygon that conform to its border, as good as points in blue noise give, and no more regular than that.
+//!
+//! Ebeida, Awad, Ge, Mahmoud, Mitchell, Knupp and Wei, "Improving Spatial Coverage while Preserving the Blue Noise of Point Sets", Computer-Aided Design 46, 2014, doi
+//! 10.1016/j.cad.2013.08.015, section 7.0.1: points on the border move along it, corners stay, and beta bounds the angles.
+//!
+//! What differs, and why: points are moved by Push-Pull's rule, to one distance and one radius, which reaches a lower beta than Opt-beta's. At the border a star is seen once more as in a mirror, so
+//! the rule knows of none. The spacing is shorter where the border asks for it, and where points cannot come to rest some are added or removed.
+//!
+//! Cost: O(n log n); some 25 visits a point where the spacing is the same everywhere, more where it varies. It does not promise any angle, though refinement at the end leaves none
+//! below 25 degrees but at sharper corners, and where the domain is thinner than a sixty-fourth of the spacing.
+
+mod aim;
+mod background;
+mod border;
+mod caps;
+mod finish;
+mod outline;
+mod polish;
+mod quality;
+mod repair;
+mod scatter;
+mod settle;
+mod state;
+
+use glam::DVec2;
+use serde::Serialize;
+
+use self::aim::Aim;
+use self::background::{Background, Grading, background, limit_growth};
+use self::caps::{Cap, cut_off};
+use self::outline::Outline;
+pub use self::quality::{MeshQuality, mesh_quality};
+use self::scatter::{least_mass, scatter, total_mass};
+use self::settle::{Place, settle};
+use self::state::State;
+use crate::error::Error;
+use crate::points::{MAX_POINTS, Random};
+use crate::polygon::Polygon;
+use crate::run::{Outcome, Phase, Report, RunContext};
+
+/// What [`mesh`] can be told.
+#[derive(Clone, Serialize)]
+pub struct MeshParams<'a> {
+    /// The wanted length of edges, in input units; positive. They are shorter where the border is detailed or the domain narrow.
+    pub spacing: f64,
+    /// The largest spacing, in input units; `None` for `spacing`. More lets triangles grow away from the border.
+    pub largest: Option<f64>,
+    /// By how much the spacing may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones.
+    pub growth: f64,
+    /// No triangle shall be obtuse. That takes longer, and is not always reached.
+    pub is_non_obtuse: bool,
+    /// Points that stay and become vertices, in input units.
+    pub fixed: Vec<[f64; 2]>,
+    /// Lines inside that become edges, each from point to point, in input units.
+    pub lines: Vec<Vec<[f64; 2]>>,
+    /// A spacing for each place, both in input units, where it is to be less than `spacing` or `largest`.
+    #[serde(skip)]
+    pub wanted: Option<&'a (dyn Fn([f64; 2]) -> f64 + Sync)>,
+    /// The points depend on it.
+    pub seed: u64,
+}
+
+impl MeshParams<'_> {
+    /// The same spacing everywhere, but where the border asks for less.
+    pub fn new(spacing: f64) -> Self {
+        Self { spacing, largest: None, growth: 0.25, is_non_obtuse: false, fixed: Vec::new(), lines: Vec::new(), wanted: None, seed: 0 }
+    }
+
+    /// Checks the parameters, as [`mesh`] does before it begins.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] for a value outside its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let invalid = |name, value: f64, expected| Err(Error::InvalidParameter { name, value: value.to_string(), expected });
+        if !(self.spacing > 0.0 && self.spacing.is_finite()) {
+            return invalid("spacing", self.spacing, "positive and finite");
+        }
+        if !(self.growth > 0.0 && self.growth <= 1.0) {
+            return invalid("growth", self.growth, "more than 0, and 1 at most");
+        }
+        match self.largest {
+            Some(largest) if largest < self.spacing || !largest.is_finite() => {
+                invalid("largest", largest, "the spacing at least, and finite")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Triangles that cover a polygon.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mesh {
+    /// In input units; the polygon's corners have the bits that they were given with.
+    pub vertices: Vec<[f64; 2]>,
+    /// Vertices of each triangle, counter-clockwise.
+    pub triangles: Vec<[usize; 3]>,
+    /// The edges on the border and on lines.
+    pub edges: Vec<MeshEdge>,
+}
+
+/// An edge that a mesh had to have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MeshEdge {
+    /// Its vertices; on the border with the inside on their left.
+    pub ends: [usize; 2],
+    /// What it is part of.
+    pub kind: EdgeKind,
+}
+
+/// What an edge of a mesh is part of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// The polygon's border.
+    Border {
+        /// Its segment, counted through all of [`Polygon::rings`].
+        segment: usize,
+    },
+    /// A line inside.
+    Line {
+        /// Which.
+        line: usize,
+    },
+}
+
+/// The smallest spacing that the domain's details are followed to, in wanted spacings.
+const FLOOR: f64 = 1.0 / 64.0;
+/// The base of a cap is at most so many spacings long; caps are made smaller so often.
+const LONGEST_BASE: f64 = 1.3;
+const MOST_TRIES: usize = 8;
+
+/// Meshes a polygon.
+///
+/// The report's number of points is that of the mesh. Its outcome says whether all triangles are as good as they were to be: no angle below 35.5 or above 109 degrees, or none above 90, but at the
+/// polygon's own sharp corners; [`mesh_quality`] tells more.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] as [`MeshParams::validate`] has it; [`Error::InvalidPolygon`] where a fixed point or a line lies outside or crosses the border; [`Error::TooManyPoints`] where the
+/// spacing asks for more than [`MAX_POINTS`]; [`Error::Degenerate`] where the border is finer than f64 can tell.
+///
+/// # Example
+/// ```
+/// use evenly::{MeshParams, Polygon, RunContext, mesh, mesh_quality};
+///
+/// let l_shape = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
+/// let (mesh, _) = mesh(&Polygon::from_rings(vec![l_shape])?, &MeshParams::new(0.05), &mut RunContext::default())?;
+/// assert!(mesh_quality(&mesh).min_angle_deg > 41.0);
+/// # Ok::<(), evenly::Error>(())
+/// ```
+pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Result<(Mesh, Report), Error> {
+    params.validate()?;
+    run.enter(Phase::Triangulate);
+    let domain = polygon.domain();
+    let unit = domain.restore_length(1.0);
+    let spacing = params.spacing / unit;
+    let largest = params.largest.map_or(spacing, |largest| largest / unit);
+    let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / unit);
+    let grading = Grading {
+        on_border: spacing,
+        largest,
+        growth: params.growth,
+        floor: (FLOOR * spacing).max(outline::LEAST),
+        max_vertices: MAX_POINTS / 4,
+        wanted: wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)),
+    };
+
+    // 1. What the mesh must keep; sharp corners are set apart, and the spacing is found for every place.
+    let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
+    let (outline, caps, mut background) = graded(&whole, &grading)?;
+
+    let least = least_mass(&background.sizing);
+    if least > MAX_POINTS as f64 {
+        return Err(Error::TooManyPoints(least.min(1e18) as usize, MAX_POINTS));
+    }
+
+    // 2. Points on the border and on lines, and a spacing that fits them.
+    let parts = border::divide(&outline, &mut background);
+    limit_growth(&mut background.sizing, params.growth);
+
+    // 3. Points inside: what the spacing asks for. Those on the border count half.
+    let total = total_mass(&background.sizing);
+    let n_on_segments = outline.points.len() + parts.iter().map(|parts| parts.points.len()).sum::<usize>();
+    let n_inside = (total - 0.5 * n_on_segments as f64).round().max(0.0);
+    if n_inside + n_on_segments as f64 > MAX_POINTS as f64 {
+        return Err(Error::TooManyPoints(n_inside as usize + n_on_segments, MAX_POINTS));
+    }
+    let inside = scatter(&background.sizing, n_inside as usize, total, &mut Random::new(params.seed, 11));
+    let state = State::new(&outline, background, &parts, inside);
+
+    // 4. They find their places.
+    run.enter(Phase::Optimize);
+    let mut report = Report::new("mesh", 0);
+    let aims = if params.is_non_obtuse { (Aim::non_obtuse(), Aim::non_obtuse()) } else { (Aim::plain(), Aim::loose()) };
+    let rails: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
+    let place = Place { domain: &domain, outline: &outline, spacing };
+    let mut settled = settle(state, place, aims, params.seed, run, &mut report)?;
+    polish::polish(&mut settled, &rails, &aims.0, params.seed);
+    let badness = settle::badness(&settled.triangulation, &aims.0);
+
+    // 5. What is left is refined, and the corners come back.
+    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, 0.5 * grading.floor);
+    report.n_points = mesh.vertices.len();
+    report.outcome = match () {
+        () if run.is_cancelled() => Outcome::Cancelled,
+        () if badness == 0.0 => Outcome::Converged,
+        () => Outcome::IterationLimit,
+    };
+    if n_added > 0 {
+        report.notes.push(format!("{n_added} points were added at the end, where triangles were thin"));
+    }
+    Ok((mesh, report))
+}
+
+/// The outline without its sharp corners, these as caps, and the spacing. Where it asks for more points at the base of a cap, the cap was too large.
+fn graded(whole: &Outline, grading: &Grading) -> Result<(Outline, Vec<Cap>, Background), Error> {
+    let planar = whole.triangulated()?;
+    let mut radii = vec![grading.on_border; whole.points.len()];
+    let mut n_tries = 0;
+    loop {
+        let (outline, caps) = cut_off(whole, &planar, &radii);
+        let background = background(&outline, outline.triangulated()?, grading);
+        let lengths = border::lengths(&outline, &background);
+        n_tries += 1;
+        let is_large = |cap: &&Cap| lengths[cap.base as usize] > LONGEST_BASE;
+        let n_large = caps.iter().filter(is_large).count();
+        if n_large == 0 || n_tries == MOST_TRIES {
+            return Ok((outline, caps, background));
+        }
+        for cap in caps.iter().filter(is_large) {
+            let [tip, end] = [cap.corners[0], cap.corners[1]].map(|v| outline.points[v as usize]);
+            radii[cap.corners[0] as usize] = tip.distance(end) / lengths[cap.base as usize];
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! What holds the points of a mesh with a border: rails along which they slide, lines that stay edges, and a spacing that varies.
+
+use std::collections::HashSet;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
+
+use glam::DVec2;
+
+use super::half_edges::prev;
+use super::planar::{Graph, Planar};
+use super::sizing::Sizing;
+
+/// Where a point may go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Track {
+    /// Anywhere inside.
+    Free,
+    /// Along a rail.
+    Rail(u32),
+    /// It stays.
+    Fixed,
+}
+
+/// The points' bonds, by point.
+#[derive(Debug, Clone)]
+pub(crate) struct Bonds {
+    pub tracks: Vec<Track>,
+    /// The two ends of each rail.
+    pub rails: Vec<[DVec2; 2]>,
+    /// The border's segments and the lines inside, between points.
+    pub border: Vec<[u32; 2]>,
+    pub lines: Vec<[u32; 2]>,
+    /// On which rail each of them lies: first those of the border, then the lines.
+    pub on_rail: Vec<u32>,
+    pub sizing: Arc<Sizing>,
+    /// The triangle of the sizing in which each point is, or one nearby.
+    pub hints: Vec<u32>,
+}
+
+impl Bonds {
+    /// The points and the segments between them.
+    pub fn graph<'a>(&'a self, points: &'a [DVec2]) -> Graph<'a> {
+        Graph { points, border: &self.border, lines: &self.lines }
+    }
+
+    /// The part of a move that a point can make.
+    pub fn along(&self, point: u32, by: DVec2) -> DVec2 {
+        match self.tracks[point as usize] {
+            Track::Free => by,
+            Track::Rail(rail) => {
+                let [from, to] = self.rails[rail as usize];
+                let direction = (to - from).normalize_or_zero();
+                direction * by.dot(direction)
+            }
+            Track::Fixed => DVec2::ZERO,
+        }
+    }
+
+    /// The place nearest to `q` where a point that is at `at` may stand.
+    fn land(&self, point: u32, at: DVec2, q: DVec2) -> DVec2 {
+        match self.tracks[point as usize] {
+            Track::Free => q,
+            Track::Rail(rail) => {
+                let [from, to] = self.rails[rail as usize];
+                let way = to - from;
+                from + way * ((q - from).dot(way) / way.length_squared()).clamp(0.0, 1.0)
+            }
+            Track::Fixed => at,
+        }
+    }
+}
+
+/// The bonds of a mesh' vertices, and what each knows of its spacing.
+pub(super) struct Held {
+    pub bonds: Bonds,
+    /// The point that each vertex stands for.
+    pub source: Vec<u32>,
+    /// The edges that stay, as pairs of vertices, the smaller first.
+    lines: HashSet<[u32; 2]>,
+    /// How often the cell of a vertex must be taken to go all around it: a corner has only part of one.
+    fullness: Vec<f64>,
+    sizes: Vec<AtomicU64>,
+    /// The triangle of the sizing in which each vertex was last.
+    hints: Vec<AtomicU32>,
+}
+
+impl Held {
+    pub fn new(bonds: Bonds, planar: &Planar) -> Self {
+        let Planar { half_edges, positions, source, lines, .. } = planar;
+        let held = Self {
+            fullness: fullness(&bonds, planar),
+            sizes: positions.iter().map(|_| AtomicU64::new(0)).collect(),
+            hints: source.iter().map(|&point| AtomicU32::new(bonds.hints[point as usize])).collect(),
+            source: source.clone(),
+            lines: lines.clone(),
+            bonds,
+        };
+        (0..).zip(positions).for_each(|(v, &p)| held.arrive(v, p));
+        debug_assert!(half_edges.n_triangles() > 0);
+        held
+    }
+
+    /// The bonds as they are now, for points in the same order.
+    pub fn bonds(&self) -> Bonds {
+        let mut bonds = self.bonds.clone();
+        for (&point, hint) in self.source.iter().zip(&self.hints) {
+            bonds.hints[point as usize] = hint.load(Relaxed);
+        }
+        bonds
+    }
+
+    /// The part of a move that a vertex can make.
+    pub fn along(&self, v: u32, by: DVec2) -> DVec2 {
+        self.bonds.along(self.source[v as usize], by)
+    }
+
+    /// The place nearest to `q` where a vertex that is at `at` may stand.
+    pub fn land(&self, v: u32, at: DVec2, q: DVec2) -> DVec2 {
+        self.bonds.land(self.source[v as usize], at, q)
+    }
+
+    pub fn is_on_rail(&self, v: u32) -> bool {
+        matches!(self.bonds.tracks[self.source[v as usize] as usize], Track::Rail(_))
+    }
+
+    /// How often the cell of a vertex must be taken to go all around it.
+    pub fn fullness(&self, v: u32) -> f64 {
+        self.fullness[v as usize]
+    }
+
+    /// Whether the edge between two vertices must stay.
+    pub fn is_line(&self, a: u32, b: u32) -> bool {
+        !self.lines.is_empty() && self.lines.contains(&[a.min(b), a.max(b)])
+    }
+
+    /// The wanted spacing at a vertex.
+    #[inline]
+    pub fn size(&self, v: u32) -> f64 {
+        f64::from_bits(self.sizes[v as usize].load(Relaxed))
+    }
+
+    /// Says that a vertex has come to `p`.
+    pub fn arrive(&self, v: u32, p: DVec2) {
+        let hint = &self.hints[v as usize];
+        let mut at = hint.load(Relaxed);
+        let size = self.bonds.sizing.at(p, &mut at);
+        hint.store(at, Relaxed);
+        self.sizes[v as usize].store(size.to_bits(), Relaxed);
+    }
+}
+
+/// For corners of the border half a turn over their angle, as stars there show all twice; 1 for the others.
+fn fullness(bonds: &Bonds, planar: &Planar) -> Vec<f64> {
+    let Planar { half_edges, positions, source, .. } = planar;
+    let is_corner = |v: u32| bonds.tracks[source[v as usize] as usize] == Track::Fixed;
+    let mut angles = vec![0.0; positions.len()];
+    let mut is_on_border = vec![false; positions.len()];
+    for h in 0..half_edges.origin.len() as u32 {
+        let v = half_edges.origin[h as usize];
+        if is_corner(v) {
+            let [u, w] =
+                [half_edges.target(h), half_edges.origin[prev(h) as usize]].map(|other| positions[other as usize] - positions[v as usize]);
+            angles[v as usize] += u.angle_to(w);
+            is_on_border[v as usize] |= half_edges.is_border(h);
+        }
+    }
+    let all = angles.into_iter().zip(is_on_border);
+    all.map(|(angle, is_on_border)| if is_on_border { std::f64::consts::PI / angle } else { 1.0 }).collect()
+}

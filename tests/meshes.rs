@@ -1,0 +1,244 @@
+//! Meshes of polygons: they cover them, conform to them, and are as good as promised.
+
+#![allow(clippy::unwrap_used)]
+
+mod shapes;
+
+use std::collections::HashMap;
+
+use evenly::{EdgeKind, Error, Mesh, MeshEdge, MeshParams, Outcome, Polygon, RunContext, mesh, mesh_quality};
+use proptest::prelude::*;
+use shapes::{Ring, circle, comb, holed_square, l_shape, moved, needle, nested, passage, rectangle, slit, spiral, star};
+
+fn polygon(rings: Vec<Ring>) -> Polygon {
+    Polygon::from_rings(rings).unwrap()
+}
+
+fn meshed(polygon: &Polygon, params: &MeshParams) -> Mesh {
+    mesh(polygon, params, &mut RunContext::default()).unwrap().0
+}
+
+fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
+    (ax - bx).hypot(ay - by)
+}
+
+/// That the triangles cover the polygon, upright and edge to edge, and that all of its border is there.
+fn prove(polygon: &Polygon, mesh: &Mesh) -> Result<(), TestCaseError> {
+    let quality = mesh_quality(mesh);
+    prop_assert!((quality.area / polygon.area() - 1.0).abs() < 1e-9, "{} of {}", quality.area, polygon.area());
+    prop_assert!(quality.min_angle_deg > 0.0, "{}", quality.min_angle_deg);
+    let mut directed: HashMap<[usize; 2], usize> = HashMap::new();
+    for t in &mesh.triangles {
+        for k in 0..3 {
+            *directed.entry([t[k], t[(k + 1) % 3]]).or_default() += 1;
+        }
+    }
+    prop_assert!(directed.values().all(|&n| n == 1));
+    // A side without another triangle is an edge of the border, and the other way round.
+    let alone = directed.keys().filter(|&&[a, b]| !directed.contains_key(&[b, a])).count();
+    let border = || mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. }));
+    prop_assert_eq!(alone, border().count());
+    prop_assert!(border().all(|edge| directed.contains_key(&edge.ends) && !directed.contains_key(&[edge.ends[1], edge.ends[0]])));
+    // Each segment of the border is divided from its start to its end.
+    let segments: Vec<[[f64; 2]; 2]> =
+        polygon.rings().iter().flat_map(|ring| (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]])).collect();
+    let mut edges: Vec<Vec<[[f64; 2]; 2]>> = vec![Vec::new(); segments.len()];
+    for &MeshEdge { ends, kind } in &mesh.edges {
+        if let EdgeKind::Border { segment } = kind {
+            edges[segment].push(ends.map(|v| mesh.vertices[v]));
+        }
+    }
+    for (segment, edges) in segments.iter().zip(&edges) {
+        let length: f64 = edges.iter().map(|[a, b]| distance(*a, *b)).sum();
+        let whole = distance(segment[0], segment[1]);
+        prop_assert!((length / whole - 1.0).abs() < 1e-6, "{} of {}", length, whole);
+        prop_assert!(edges.iter().any(|edge| edge[0] == segment[0]) && edges.iter().any(|edge| edge[1] == segment[1]));
+    }
+    Ok(())
+}
+
+/// Shapes of a kind, from hard to harder.
+fn shape(kind: usize, hardness: f64) -> Vec<Ring> {
+    let thin = 10f64.powf(-9.0 * hardness);
+    match kind {
+        0 => star(3 + (40.0 * hardness) as usize, 1.0 - 0.95 * hardness),
+        1 => comb(2 + (20.0 * hardness) as usize, 0.05 + 0.9 * (1.0 - hardness)),
+        2 => spiral(2.0 + 2.0 * hardness, 0.45 - 0.35 * hardness),
+        3 => nested(1 + (8.0 * hardness) as usize),
+        4 => needle(thin.max(1e-4)),
+        5 => slit(0.1 * thin),
+        6 => passage(0.1 * thin.max(1e-4)),
+        _ => circle(3 + (400.0 * hardness) as usize),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(40) })]
+    #[test]
+    fn every_polygon_is_covered(
+        kind in 0..8usize, hardness in 0.0..1.0f64, turn in 0.0..7.0f64, scale in -6.0..6.0f64, spacing in 0.2..0.9f64, growth in 0.1..1.0f64, seed in 0..1000u64,
+        is_non_obtuse in prop::bool::weighted(0.2),
+    ) {
+        let scale = 10f64.powf(scale);
+        let polygon = polygon(moved(&shape(kind, hardness), turn, scale, [3.0 * scale, -2.0 * scale]));
+        let params = MeshParams { growth, seed, is_non_obtuse, ..MeshParams::new(spacing * scale) };
+        prove(&polygon, &meshed(&polygon, &params))?;
+    }
+}
+
+#[test]
+fn plain_domains_have_well_spaced_points_up_to_the_border() {
+    for rings in [l_shape(), holed_square()] {
+        for spacing in [0.0404, 0.0202] {
+            for seed in 0..3 {
+                let (mesh, report) =
+                    mesh(&polygon(rings.clone()), &MeshParams { seed, ..MeshParams::new(spacing) }, &mut RunContext::default()).unwrap();
+                let quality = mesh_quality(&mesh);
+                assert_eq!(report.outcome, Outcome::Converged);
+                assert!(quality.beta <= 0.757, "{}", quality.beta);
+                assert!(quality.min_angle_deg >= 41.0 && quality.max_angle_deg <= 97.0, "{quality:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_triangle_is_obtuse_where_none_shall_be() {
+    for rings in [l_shape(), holed_square()] {
+        for spacing in [0.0404, 0.0202] {
+            for seed in 0..3 {
+                let params = MeshParams { seed, is_non_obtuse: true, ..MeshParams::new(spacing) };
+                let (mesh, report) = mesh(&polygon(rings.clone()), &params, &mut RunContext::default()).unwrap();
+                let quality = mesh_quality(&mesh);
+                assert_eq!((report.outcome, quality.obtuse_triangles), (Outcome::Converged, 0), "{quality:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn detailed_borders_are_followed_with_good_angles() {
+    for (rings, least) in [(circle(1000), 35.0), (comb(10, 0.4), 32.0), (passage(1e-3), 25.0), (slit(1e-9), 41.0)] {
+        let polygon = polygon(rings);
+        let mesh = meshed(&polygon, &MeshParams::new(0.05));
+        prove(&polygon, &mesh).unwrap();
+        let quality = mesh_quality(&mesh);
+        assert!(quality.min_angle_deg > least, "{quality:?}");
+    }
+}
+
+#[test]
+fn only_tips_are_sharper_than_25_degrees() {
+    let polygon = polygon(star(7, 0.3));
+    let mesh = meshed(&polygon, &MeshParams::new(0.05));
+    let n_sharp =
+        mesh.triangles.iter().filter(|t| mesh_quality(&Mesh { triangles: vec![**t], ..mesh.clone() }).min_angle_deg < 25.0).count();
+    assert_eq!(n_sharp, 7);
+}
+
+#[test]
+fn a_large_border_is_meshed() {
+    let polygon = polygon(star(5000, 0.999));
+    let mesh = meshed(&polygon, &MeshParams { growth: 1.0, ..MeshParams::new(0.5) });
+    prove(&polygon, &mesh).unwrap();
+}
+
+#[test]
+fn fixed_points_are_vertices_and_lines_are_edges() {
+    let polygon = polygon(l_shape());
+    let line = vec![[0.0, 0.25], [0.3, 0.3], [0.7, 0.2], [0.25, 0.77]];
+    let params = MeshParams { fixed: vec![[0.2, 0.1], [0.123, 0.9]], lines: vec![line.clone()], ..MeshParams::new(0.05) };
+    let mesh = meshed(&polygon, &params);
+    prove(&polygon, &mesh).unwrap();
+    for point in params.fixed.iter().chain(&line) {
+        assert!(mesh.vertices.contains(point), "{point:?}");
+    }
+    let length: f64 = mesh
+        .edges
+        .iter()
+        .filter(|edge| edge.kind == EdgeKind::Line { line: 0 })
+        .map(|edge| distance(mesh.vertices[edge.ends[0]], mesh.vertices[edge.ends[1]]))
+        .sum();
+    let wanted: f64 = line.windows(2).map(|ends| distance(ends[0], ends[1])).sum();
+    assert!((length / wanted - 1.0).abs() < 1e-9, "{length} {wanted}");
+    assert!(mesh_quality(&mesh).min_angle_deg > 25.0);
+}
+
+#[test]
+fn the_spacing_may_grow_away_from_the_border_or_be_given() {
+    let square = polygon(vec![rectangle([0.0, 0.0], [1.0, 1.0])]);
+    let even = meshed(&square, &MeshParams::new(0.02));
+    let graded = meshed(&square, &MeshParams { largest: Some(0.2), growth: 0.2, ..MeshParams::new(0.02) });
+    assert!(graded.vertices.len() * 3 < even.vertices.len(), "{} {}", graded.vertices.len(), even.vertices.len());
+    assert!(mesh_quality(&graded).min_angle_deg > 33.0);
+    let wanted = |[x, _]: [f64; 2]| 0.01 + 0.09 * x;
+    let given = meshed(&square, &MeshParams { wanted: Some(&wanted), ..MeshParams::new(0.1) });
+    let n_left = given.vertices.iter().filter(|p| p[0] < 0.2).count();
+    let n_right = given.vertices.iter().filter(|p| p[0] > 0.8).count();
+    assert!(n_left > 10 * n_right && mesh_quality(&given).min_angle_deg > 33.0, "{n_left} {n_right}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_mesh_on_any_threads() {
+    let polygon = polygon(star(9, 0.6));
+    let run = |n_threads: usize, seed: u64| {
+        let pool = rayon_pool(n_threads);
+        pool.install(|| meshed(&polygon, &MeshParams { seed, ..MeshParams::new(0.03) }))
+    };
+    assert_eq!(run(1, 4), run(3, 4));
+    assert_ne!(run(1, 4), run(1, 5));
+}
+
+fn rayon_pool(n_threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap()
+}
+
+fn error(rings: Vec<Ring>) -> String {
+    Polygon::from_rings(rings).unwrap_err().to_string()
+}
+
+#[test]
+fn what_leaves_in_doubt_is_an_error_with_its_place() {
+    let bow_tie = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+    assert!(error(vec![bow_tie]).ends_with("at (0.5, 0.5)"));
+    assert!(error(vec![rectangle([0.0, 0.0], [1.0, 1.0]), rectangle([0.5, 0.5], [1.0, 1.0])]).contains("crosses itself"));
+    assert!(error(vec![vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]]).contains("encloses nothing"));
+    assert!(error(vec![vec![[0.0, 0.0], [1.0, f64::NAN], [2.0, 2.0]]]).contains("not finite"));
+    let apart = vec![vec![rectangle([0.0, 0.0], [1.0, 1.0]), rectangle([2.0, 2.0], [1.0, 1.0])]];
+    assert!(Polygon::new(apart).unwrap_err().to_string().contains("a hole that lies outside"));
+    let within = vec![vec![rectangle([0.0, 0.0], [3.0, 3.0])], vec![rectangle([1.0, 1.0], [1.0, 1.0])]];
+    assert!(Polygon::new(within).unwrap_err().to_string().contains("lies inside of another"));
+    assert!(matches!(Polygon::from_rings(Vec::new()), Err(Error::InvalidSpace(_))));
+}
+
+#[test]
+fn what_can_be_repaired_is_and_is_told() {
+    // A hole that runs the wrong way, a spike, doubled points.
+    let outer = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 0.0], [4.0, 4.0], [6.0, 6.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
+    let repaired = Polygon::new(vec![vec![outer, rectangle([1.0, 1.0], [1.0, 1.0])]]).unwrap();
+    assert_eq!(repaired.area(), 15.0);
+    let told = repaired.repairs().join("; ");
+    assert!(told.contains("spike") && told.contains("twice") && told.contains("wrong way"), "{told}");
+    // Two parts that share a side are one; holes may touch the border in a point.
+    let parts = vec![vec![rectangle([0.0, 0.0], [1.0, 1.0])], vec![rectangle([1.0, 0.0], [1.0, 1.0])]];
+    let joined = Polygon::new(parts).unwrap();
+    assert_eq!((joined.area(), joined.rings().len()), (2.0, 1));
+    let touching = vec![rectangle([0.0, 0.0], [2.0, 2.0]), vec![[1.0, 0.0], [1.5, 1.0], [0.5, 1.0]]];
+    let polygon = polygon(touching);
+    prove(&polygon, &meshed(&polygon, &MeshParams::new(0.1))).unwrap();
+    // What rounding has made cross is cut.
+    let crossing = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.5, 1.0], [0.5, 1.001], [0.501, 0.999], [0.0, 1.0]];
+    let cut = Polygon::from_rings(vec![crossing]).unwrap();
+    assert!(cut.repairs().join("; ").contains("crosses itself by a little"), "{:?}", cut.repairs());
+}
+
+#[test]
+fn what_lies_outside_is_refused() {
+    let polygon = polygon(l_shape());
+    let refused = |params: &MeshParams| mesh(&polygon, params, &mut RunContext::default()).map(|_| ()).unwrap_err().to_string();
+    assert!(refused(&MeshParams { fixed: vec![[0.9, 0.9]], ..MeshParams::new(0.1) }).contains("does not hold"));
+    assert!(refused(&MeshParams { fixed: vec![[9.0, 9.0]], ..MeshParams::new(0.1) }).contains("does not hold"));
+    assert!(refused(&MeshParams { lines: vec![vec![[0.9, 0.2], [0.2, 0.9]]], ..MeshParams::new(0.1) }).contains("crosses"));
+    assert!(refused(&MeshParams::new(0.0)).contains("spacing"));
+    assert!(refused(&MeshParams::new(1e-7)).contains("too many"));
+}
