@@ -6,7 +6,7 @@ mod shapes;
 
 use std::collections::HashMap;
 
-use evenly::{EdgeKind, Error, Mesh, MeshEdge, MeshParams, Outcome, Polygon, RunContext, mesh, mesh_quality};
+use evenly::{EdgeKind, Error, Mesh, MeshEdge, MeshParams, Outcome, Polygon, RunContext, mesh, mesh_cells, mesh_quality};
 use proptest::prelude::*;
 use shapes::{Ring, circle, comb, holed_square, l_shape, moved, needle, nested, passage, rectangle, slit, spiral, star};
 
@@ -176,6 +176,21 @@ fn the_spacing_may_grow_away_from_the_border_or_be_given() {
     let n_left = given.vertices.iter().filter(|p| p[0] < 0.2).count();
     let n_right = given.vertices.iter().filter(|p| p[0] > 0.8).count();
     assert!(n_left > 10 * n_right && mesh_quality(&given).min_angle_deg > 33.0, "{n_left} {n_right}");
+}
+
+#[test]
+fn the_cells_of_all_vertices_cover_the_domain() {
+    let area = |cell: &Vec<[f64; 2]>| -> f64 {
+        let sides = cell.iter().zip(cell.iter().cycle().skip(1));
+        0.5 * sides.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
+    };
+    for rings in [l_shape(), holed_square(), circle(40)] {
+        let polygon = polygon(rings);
+        let cells = mesh_cells(&meshed(&polygon, &MeshParams::new(0.05)));
+        let covered: f64 = cells.iter().map(area).sum();
+        assert!((covered / polygon.area() - 1.0).abs() < 1e-9, "{covered} of {}", polygon.area());
+        assert!(cells.iter().all(|cell| area(cell) > 0.0));
+    }
 }
 
 #[test]

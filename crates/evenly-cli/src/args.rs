@@ -6,6 +6,7 @@ use clap::{Args, Command as Clap, CommandFactory as _, Parser, Subcommand};
 use evenly_io::Format;
 
 use crate::measuring_args::{Analyze, Bilateral, Reproduce, Zoneplate};
+use crate::mesh_args::Mesh;
 use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
 use crate::parse::{parse_count, parse_format};
@@ -20,6 +21,7 @@ Examples:
   evenly optimize points.csv --size 640,480 -o better.csv
   evenly analyze better.csv --size 640,480 --json
   evenly stipple photo.jpg -n 20000 -o drawing.svg
+  evenly mesh area.geojson --spacing 50 -o area.msh
   evenly compare -n 1000 --methods lloyd,well-spaced,push-pull -o table.html
 
 Exit codes: 0 done; 1 done, but not converged or a target not reached; 2 bad usage or input, or no output; 130 interrupted, state reached written";
@@ -42,6 +44,8 @@ pub enum Command {
     Analyze(Analyze),
     /// Draw a picture with dots, as many as asked for: for plotters, print and screen
     Stipple(Stipple),
+    /// Mesh a polygon with triangles
+    Mesh(Mesh),
     /// Run several methods on the same points, and lay their measures side by side
     Compare(Compare),
     /// Sample the zone plate sin(x^2 + y^2) with points, and measure noise and aliasing

@@ -10,6 +10,7 @@ mod input;
 mod interrupt;
 mod measured;
 mod measuring_args;
+mod mesh_args;
 mod method;
 mod method_args;
 mod optimizer;
@@ -19,10 +20,12 @@ mod record;
 mod reproduce;
 mod session;
 mod shared_args;
+mod sizes;
 mod stipple;
 mod stipple_args;
 mod table;
 mod talk;
+mod unmet;
 
 use std::process::ExitCode;
 
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
         Command::Optimize(args) => commands::optimize::run(args, flags),
         Command::Analyze(args) => commands::analyze::run(args),
         Command::Stipple(args) => commands::stipple::run(args),
+        Command::Mesh(args) => commands::mesh::run(args),
         Command::Compare(args) => commands::compare::run(args, flags),
         Command::Zoneplate(args) => commands::zoneplate::run(args),
         Command::Bilateral(args) => commands::bilateral::run(args),

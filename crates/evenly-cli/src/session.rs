@@ -17,7 +17,7 @@ use crate::record::{self, Record};
 use crate::talk::say;
 
 /// Done, but what was asked for was not reached.
-const NOT_REACHED: u8 = 1;
+pub const NOT_REACHED: u8 = 1;
 
 pub struct Session<'a> {
     args: &'a RunArgs,

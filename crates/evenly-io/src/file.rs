@@ -15,6 +15,15 @@ pub fn read_positions(path: &Path) -> Result<Vec<[f64; 2]>, Error> {
     if bytes.starts_with(b"\x93NUMPY") { npy::read(&name, &bytes) } else { text::read(&name, &bytes) }
 }
 
+/// Reads three numbers a line from text: a point, and what is said of it.
+///
+/// # Errors
+/// As [`read_positions`].
+pub fn read_rows(path: &Path) -> Result<Vec<[f64; 3]>, Error> {
+    let (name, bytes) = read_bytes(path)?;
+    text::read_rows(&name, &bytes)
+}
+
 /// A file's name for messages, and all that is in it; `-` is stdin.
 pub(crate) fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Error> {
     let name = display_name(path, "stdin");

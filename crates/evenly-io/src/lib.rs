@@ -1,4 +1,4 @@
-//! Everything of evenly that touches files: points and pictures in and out, figures out.
+//! Everything of evenly that touches files: points, polygons and pictures in and out, meshes and figures out.
 //!
 //! A file is written whole or not at all; an error names the file, the line and the value.
 
@@ -8,6 +8,7 @@ mod figure;
 mod file;
 mod format;
 mod image;
+mod meshes;
 mod npy;
 mod output;
 mod photograph;
@@ -20,9 +21,10 @@ mod text;
 pub use drawing::{Drawing, Layer, Marks};
 pub use error::Error;
 pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture};
-pub use file::{Target, make_folder, read_positions};
+pub use file::{Target, make_folder, read_positions, read_rows};
 pub use format::Format;
 pub use image::{read_image, write_image};
+pub use meshes::{MeshFormat, write_mesh, write_polygons};
 pub use output::{write_figure, write_points};
 pub use photograph::{Photograph, Tone, luma};
 pub use scraps::Scraps;

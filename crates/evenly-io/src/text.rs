@@ -52,16 +52,30 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
     Ok(points)
 }
 
-/// The point on one line, if there is more than a comment; `place` says where the line stands.
-pub(crate) fn read_line(place: &str, line: &str) -> Result<Option<[f64; 2]>, Error> {
+/// The numbers on one line, if there is more than a comment; `place` says where the line stands.
+pub(crate) fn read_line<const N: usize>(place: &str, line: &str) -> Result<Option<[f64; N]>, Error> {
     let line = line.split('#').next().unwrap_or_default();
     let fields: Vec<&str> = line.split(is_separator).filter(|field| !field.is_empty()).collect();
-    let problem = |problem| Error::content(place, problem);
-    match fields[..] {
-        [] => Ok(None),
-        [x, y] => Ok(Some([parse(x).map_err(problem)?, parse(y).map_err(problem)?])),
-        _ => Err(problem(format!("{} numbers, expected 2 (x y)", fields.len()))),
+    if fields.is_empty() {
+        return Ok(None);
     }
+    if fields.len() != N {
+        return Err(Error::content(place, format!("{} numbers, expected {N}", fields.len())));
+    }
+    let mut numbers = [0.0; N];
+    for (number, field) in numbers.iter_mut().zip(fields) {
+        *number = parse(field).map_err(|problem| Error::content(place, problem))?;
+    }
+    Ok(Some(numbers))
+}
+
+/// Reads so many numbers a line.
+pub(crate) fn read_rows<const N: usize>(name: &str, bytes: &[u8]) -> Result<Vec<[f64; N]>, Error> {
+    let text = std::str::from_utf8(bytes).map_err(|_| Error::content(name, "this is not text"))?;
+    let lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
+    let rows = lines.filter_map(|(number, line)| read_line(&format!("{name}:{number}"), line).transpose());
+    let rows: Vec<[f64; N]> = rows.collect::<Result<_, _>>()?;
+    if rows.is_empty() { Err(Error::content(name, "there is nothing in it")) } else { Ok(rows) }
 }
 
 fn is_separator(c: char) -> bool {

@@ -4,6 +4,7 @@ pub mod analyze;
 pub mod bilateral;
 pub mod compare;
 pub mod generate;
+pub mod mesh;
 pub mod optimize;
 pub mod reproduce;
 pub mod shell;

@@ -9,17 +9,19 @@ use super::{EdgeKind, Mesh, MeshEdge};
 use crate::space::Domain;
 use crate::triangulation::{BORDER, Planar, Refinement, Refining, Triangulation};
 
-/// Angles below about 25.5 degrees are refined: 1 / (2 sin 25.5).
-const ASPECT: f64 = 1.161;
+/// Angles below this are refined; or below what is wanted, as far as refinement ends in practice.
+const REFINED_DEG: f64 = 25.5;
+const MOST_REFINED_DEG: f64 = 30.0;
 
 /// The mesh of settled points, refined where triangles are thin and segments not shorter than `floor`; and how many points that took.
-pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: &Domain, floor: f64) -> (Mesh, usize) {
+pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: &Domain, min_angle_deg: f64, floor: f64) -> (Mesh, usize) {
     let Settled { triangulation, mut corners, edges, .. } = settled;
     let Triangulation { half_edges, positions, .. } = triangulation;
     let n_settled = positions.len();
+    let refined_deg = (min_angle_deg + 0.1).clamp(REFINED_DEG, MOST_REFINED_DEG);
+    let aspect = 0.5 / refined_deg.to_radians().sin();
     let planar = Planar { half_edges, positions, ..Planar::default() };
-    let refining =
-        Refining { longest: f64::INFINITY, aspect: ASPECT, floor, halves_all: false, max_vertices: 2 * n_settled + 1000, largest: None };
+    let refining = Refining { longest: f64::INFINITY, aspect, floor, halves_all: false, max_vertices: 2 * n_settled + 1000, largest: None };
     let Refinement { half_edges, positions, segments } = Refinement::run(planar, edges.into_iter().collect(), refining);
     corners.resize(positions.len(), BORDER);
 

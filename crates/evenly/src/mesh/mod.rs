@@ -13,6 +13,7 @@ mod aim;
 mod background;
 mod border;
 mod caps;
+mod cells;
 mod finish;
 mod outline;
 mod polish;
@@ -28,6 +29,7 @@ use serde::Serialize;
 use self::aim::Aim;
 use self::background::{Background, Grading, background, limit_growth};
 use self::caps::{Cap, cut_off};
+pub use self::cells::mesh_cells;
 use self::outline::Outline;
 pub use self::quality::{MeshQuality, mesh_quality};
 use self::scatter::{least_mass, scatter, total_mass};
@@ -49,6 +51,8 @@ pub struct MeshParams<'a> {
     pub growth: f64,
     /// No triangle shall be obtuse. That takes longer, and is not always reached.
     pub is_non_obtuse: bool,
+    /// No angle shall be smaller, in degrees, but at the polygon's sharper corners; in (0, 35]. `None` for 25. More than 30 is not always reached.
+    pub min_angle_deg: Option<f64>,
     /// Points that stay and become vertices, in input units.
     pub fixed: Vec<[f64; 2]>,
     /// Lines inside that become edges, each from point to point, in input units.
@@ -60,10 +64,27 @@ pub struct MeshParams<'a> {
     pub seed: u64,
 }
 
+impl Mesh {
+    /// The angles of triangle `t` in degrees, each at its corner.
+    pub fn angles_deg(&self, t: usize) -> [f64; 3] {
+        quality::angles_deg(self.triangles[t].map(|v| self.vertices[v]))
+    }
+}
+
 impl MeshParams<'_> {
     /// The same spacing everywhere, but where the border asks for less.
     pub fn new(spacing: f64) -> Self {
-        Self { spacing, largest: None, growth: 0.25, is_non_obtuse: false, fixed: Vec::new(), lines: Vec::new(), wanted: None, seed: 0 }
+        Self {
+            spacing,
+            largest: None,
+            growth: 0.25,
+            is_non_obtuse: false,
+            min_angle_deg: None,
+            fixed: Vec::new(),
+            lines: Vec::new(),
+            wanted: None,
+            seed: 0,
+        }
     }
 
     /// Checks the parameters, as [`mesh`] does before it begins.
@@ -77,6 +98,9 @@ impl MeshParams<'_> {
         }
         if !(self.growth > 0.0 && self.growth <= 1.0) {
             return invalid("growth", self.growth, "more than 0, and 1 at most");
+        }
+        if let Some(least) = self.min_angle_deg.filter(|least| !(0.0..=35.0).contains(least)) {
+            return invalid("min_angle_deg", least, "0 or more, and 35 at most");
         }
         match self.largest {
             Some(largest) if largest < self.spacing || !largest.is_finite() => {
@@ -197,7 +221,7 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     let badness = settle::badness(&settled.triangulation, &aims.0);
 
     // 5. What is left is refined, and the corners come back.
-    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, 0.5 * grading.floor);
+    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, params.min_angle_deg.unwrap_or(0.0), 0.5 * grading.floor);
     report.n_points = mesh.vertices.len();
     report.outcome = match () {
         () if run.is_cancelled() => Outcome::Cancelled,

@@ -1,0 +1,56 @@
+//! Where a mesh is not as was demanded, and why.
+
+use std::collections::HashSet;
+
+use evenly::{EdgeKind, Mesh};
+use serde::Serialize;
+
+/// A triangle that does not meet a demand.
+#[derive(Serialize)]
+pub struct Unmet {
+    /// What was demanded.
+    pub demand: &'static str,
+    /// The angle that is too small or too large.
+    pub angle_deg: f64,
+    /// The vertex at which it is.
+    pub at: [f64; 2],
+    pub why: &'static str,
+}
+
+impl std::fmt::Display for Unmet {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { demand, angle_deg, at, why } = self;
+        write!(f, "{demand}: an angle of {angle_deg:.2} degrees at ({}, {}), {why}", at[0], at[1])
+    }
+}
+
+/// An angle counts as obtuse above this.
+const OBTUSE_DEG: f64 = 90.0 + 1e-6;
+
+/// The triangles that have a smaller angle than demanded, or an obtuse one, the worst first. Those at corners of the polygon that are sharper themselves are no fault of the mesh.
+pub fn unmet(mesh: &Mesh, min_angle: Option<f64>, no_obtuse: bool) -> Vec<Unmet> {
+    let border: HashSet<[usize; 2]> =
+        mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. })).map(|edge| edge.ends).collect();
+    let is_held = |a: usize, b: usize| border.contains(&[a, b]) || border.contains(&[b, a]);
+    let mut found = Vec::new();
+    for (t, corners) in mesh.triangles.iter().enumerate() {
+        let angles = mesh.angles_deg(t);
+        let [least, most] = [0, 1, 2].into_iter().fold([0, 0], |[least, most], k| {
+            [if angles[k] < angles[least] { k } else { least }, if angles[k] > angles[most] { k } else { most }]
+        });
+        let sides = [0, 1, 2].map(|k| is_held(corners[k], corners[(k + 1) % 3]));
+        let is_corner = |k: usize| sides[k] && sides[(k + 2) % 3];
+        let n_held = sides.iter().filter(|&&is| is).count();
+        let why = if n_held > 0 { "where the border is detailed or the domain narrow" } else { "near where the border is detailed" };
+        let mut miss = |demand, k: usize| found.push(Unmet { demand, angle_deg: angles[k], at: mesh.vertices[corners[k]], why });
+        if min_angle.is_some_and(|wanted| angles[least] < wanted) && !is_corner(least) {
+            miss("min angle", least);
+        }
+        if no_obtuse && angles[most] > OBTUSE_DEG {
+            miss("no obtuse", most);
+        }
+    }
+    let badness = |unmet: &Unmet| if unmet.demand == "min angle" { unmet.angle_deg } else { 180.0 - unmet.angle_deg };
+    found.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
+    found
+}
