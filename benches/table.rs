@@ -1,4 +1,4 @@
-//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density]`,
+//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh]`,
 //! quick without the largest runs.
 //!
 //! Speed is a ratio to one run of `delaunator` on the same points in the same process, the best of a few runs each.
@@ -8,6 +8,9 @@
 #[path = "../tests/densities.rs"]
 mod densities;
 mod density;
+mod mesh;
+#[path = "../tests/shapes.rs"]
+mod shapes;
 
 use std::time::{Duration, Instant};
 
@@ -28,7 +31,7 @@ fn main() {
     let args: Vec<String> = std::env::args().collect();
     let is_wanted = |name: &str| args.iter().any(|arg| arg == name);
     let is_quick = is_wanted("quick");
-    let is_all = !["procrustes", "push-pull", "starts", "comparators", "spectrum", "density"].into_iter().any(is_wanted);
+    let is_all = !["procrustes", "push-pull", "starts", "comparators", "spectrum", "density", "mesh"].into_iter().any(is_wanted);
     println!("| run | must reach | measured |\n|---|---|---|");
     if is_all || is_wanted("procrustes") {
         of_procrustes(is_quick);
@@ -47,6 +50,9 @@ fn main() {
     }
     if is_all || is_wanted("density") {
         density::of_density(is_quick);
+    }
+    if is_all || is_wanted("mesh") {
+        mesh::of_meshes(is_quick);
     }
 }
 

@@ -88,3 +88,23 @@ pub fn moved(rings: &[Ring], turn: f64, scale: f64, origin: [f64; 2]) -> Vec<Rin
     let place = |&[x, y]: &[f64; 2]| [origin[0] + scale * (cos * x - sin * y), origin[1] + scale * (sin * x + cos * y)];
     rings.iter().map(|ring| ring.iter().map(place).collect()).collect()
 }
+
+/// A coast: a circle whose sides have been halved, and their middles moved, until it has so many corners.
+pub fn coast(n_corners: usize) -> Vec<Ring> {
+    // A plain generator, so that it is always the same coast.
+    let mut state = 1u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / f64::from(1u32 << 30) - 1.0
+    };
+    let mut ring = star(6, 1.0).remove(0);
+    while ring.len() < n_corners {
+        let next = ring.iter().cycle().skip(1);
+        let halved = ring.iter().zip(next).flat_map(|(&[ax, ay], &[bx, by])| {
+            let by_how_much = 0.2 * random();
+            [[ax, ay], [0.5 * (ax + bx) + by_how_much * (by - ay), 0.5 * (ay + by) - by_how_much * (bx - ax)]]
+        });
+        ring = halved.collect();
+    }
+    vec![ring]
+}

@@ -14,13 +14,13 @@ const SPARSEST: f64 = 10.0;
 pub enum Sizes {
     /// Points with a spacing each, which grows away from there by so much a length.
     Points(Vec<[f64; 3]>, f64),
-    /// Spacings on a grid: origin and size of the whole, cells along each axis, rows from below.
+    /// Spacings on a grid, relative to the mean: origin and size of the whole, cells along each axis, rows from below.
     Grid { origin: [f64; 2], size: [f64; 2], n_cells: [usize; 2], spacings: Vec<f64> },
 }
 
 impl Sizes {
     /// What the arguments ask for; `None` if that is the same spacing everywhere.
-    pub fn new(args: &Mesh, polygon: &Polygon, spacing: f64, growth: f64) -> anyhow::Result<Option<Self>> {
+    pub fn new(args: &Mesh, polygon: &Polygon, growth: f64) -> anyhow::Result<Option<Self>> {
         if args.sizes.is_some() && args.density.is_given() {
             bail!("--sizes and --density both say how long edges are; give one");
         }
@@ -41,13 +41,13 @@ impl Sizes {
         let density = args.density.density()?.resampled(n_cells[0], n_cells[1]);
         // Rows of pictures run from above.
         let mean = density.iter().sum::<f64>() / density.len() as f64;
-        let spacing_of = |&density: &f64| spacing * (mean / density.max(f64::MIN_POSITIVE)).sqrt().min(SPARSEST);
+        let spacing_of = |&density: &f64| (mean / density.max(f64::MIN_POSITIVE)).sqrt().min(SPARSEST);
         let spacings = density.chunks_exact(n_cells[0]).rev().flatten().map(spacing_of).collect();
         Ok(Some(Self::Grid { origin: frame.origin(), size, n_cells, spacings }))
     }
 
-    /// The wanted spacing at a place.
-    pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
+    /// The wanted spacing at a place; `spacing` is the mean of a picture's.
+    pub fn at(&self, [x, y]: [f64; 2], spacing: f64) -> f64 {
         match self {
             Self::Points(points, growth) => {
                 points.iter().map(|[px, py, length]| length + growth * (x - px).hypot(y - py)).fold(f64::INFINITY, f64::min)
@@ -64,16 +64,16 @@ impl Sizes {
                 let of = |column: usize, row: usize| spacings[row * n_cells[0] + column];
                 let low = of(left, below) * (1.0 - s) + of(right, below) * s;
                 let high = of(left, above) * (1.0 - s) + of(right, above) * s;
-                low * (1.0 - t) + high * t
+                spacing * (low * (1.0 - t) + high * t)
             }
         }
     }
 
     /// The largest spacing that is wanted anywhere; of points none is, as it grows.
-    pub fn largest(&self) -> f64 {
+    pub fn largest(&self, spacing: f64) -> f64 {
         match self {
             Self::Points(..) => 0.0,
-            Self::Grid { spacings, .. } => spacings.iter().copied().fold(0.0, f64::max),
+            Self::Grid { spacings, .. } => spacing * spacings.iter().copied().fold(0.0, f64::max),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::process::{Command, ExitCode};
 const USAGE: &str = "\
 usage: cargo xtask CHORE
   test           all tests: units, laws, numbers, the command line, the examples in the documentation
-  bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density]
+  bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh]
                  the table of speed and quality, measured on this machine
   gallery        draws the pictures of the README, and the pages of docs/, anew: some five minutes";
 
@@ -26,7 +26,7 @@ fn main() -> ExitCode {
 
 /// The pictures that the README shows, and the papers reproduced.
 fn gallery() -> bool {
-    let pictures: [&[&str]; 10] = [
+    let pictures: [&[&str]; 12] = [
         &["generate", "-n", "10000", "-o", "gallery/points.png"],
         &["generate", "-n", "10000", "--draw", "valence", "-o", "gallery/valence.png"],
         &["generate", "-n", "600", "--space", "rect", "--size", "3,2", "--draw", "delaunay,points", "-o", "gallery/rectangle.png"],
@@ -60,14 +60,17 @@ fn gallery() -> bool {
             "-o",
             "gallery/torus.png",
         ],
+        &["mesh", "target/polygons/coast.txt", "-n", "6000", "--grade", "0.2", "-o", "gallery/coast.png"],
+        &["mesh", "target/polygons/plate.txt", "--spacing", "0.04", "--no-obtuse", "-o", "gallery/plate.png"],
         &["reproduce", "procrustes", "-o", "docs"],
         &["reproduce", "push-pull", "-o", "docs"],
         &["reproduce", "opt-beta", "-o", "docs"],
     ];
     let evenly = ["run", "--release", "--package", "evenly-cli", "--"];
     let example = |name: &str, path: &str| cargo(&["run", "--release", "--package", "evenly-io", "--example", name, path]);
-    let is_drawn =
-        example("03_scenes", "target/scenes") && pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));
+    let is_drawn = example("03_scenes", "target/scenes")
+        && example("04_polygons", "target/polygons")
+        && pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));
     let mut examples = [("01_energy", "gallery/energy.svg"), ("02_methods", "gallery/methods.svg")].into_iter();
     is_drawn && examples.all(|(name, path)| example(name, path))
 }

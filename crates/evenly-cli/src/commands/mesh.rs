@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, MeshParams, MeshQuality, Report, RunContext, mesh, mesh_cells, mesh_quality};
+use evenly::{CancelToken, MeshParams, MeshQuality, Report, RunContext, expected_triangles, mesh, mesh_cells, mesh_quality};
 use evenly_io::{MeshFormat, Target, read_lines, read_polygon, read_positions, write_mesh, write_polygons};
 use serde::Serialize;
 
@@ -16,6 +16,8 @@ use crate::{input, interrupt, measured, record, session};
 
 /// Parameters, and the flags that hold them.
 const FLAGS: [(&str, &str); 4] = [("spacing", "spacing"), ("growth", "grade"), ("largest", "max-spacing"), ("min_angle_deg", "min-angle")];
+/// A spacing for so many triangles is found in so many steps.
+const ESTIMATES: usize = 4;
 /// How many places are named where a demand was not met.
 const NAMED: usize = 5;
 
@@ -30,31 +32,41 @@ pub fn run(args: &Mesh) -> anyhow::Result<ExitCode> {
     let pool = session::pool(args.run.threads)?;
     let polygon = read_polygon(&args.input, args.curve_tolerance)?;
     let mut notes: Vec<String> = polygon.repairs().to_vec();
-    let spacing = match (args.spacing, args.n_triangles) {
-        (Some(spacing), _) => spacing,
-        // A triangle with sides h has the area sqrt(3) / 4 h^2.
-        (None, n) => (4.0 * polygon.area() / (3f64.sqrt() * n.unwrap_or(1) as f64)).sqrt(),
-    };
+    // A triangle with sides h has the area sqrt(3) / 4 h^2.
+    let of_triangles = |n: usize| (4.0 * polygon.area() / (3f64.sqrt() * n as f64)).sqrt();
+    let mut spacing = args.spacing.unwrap_or_else(|| of_triangles(args.n_triangles.unwrap_or(1)));
     let growth = args.grade.unwrap_or(MeshParams::new(spacing).growth);
-    let sizes = Sizes::new(args, &polygon, spacing, growth)?;
-    let wanted = sizes.as_ref().map(|sizes| |place: [f64; 2]| sizes.at(place));
-    let params = MeshParams {
+    let sizes = Sizes::new(args, &polygon, growth)?;
+    let fixed = args.fixed.as_deref().map(read_positions).transpose()?.unwrap_or_default();
+    let lines = args.lines.as_deref().map(read_lines).transpose()?.unwrap_or_default();
+    let wanted = |spacing: f64| sizes.as_ref().map(|sizes| move |place: [f64; 2]| sizes.at(place, spacing));
+    let told = |e| measured::told(e, &args.input, &FLAGS);
+    let params_of = |spacing: f64| MeshParams {
         growth,
         largest: match (args.grade, args.max_spacing) {
-            (None, _) => sizes.as_ref().map(|sizes| sizes.largest().max(spacing)),
+            (None, _) => sizes.as_ref().map(|sizes| sizes.largest(spacing).max(spacing)),
             (Some(_), Some(largest)) => Some(largest),
             // As far as it grows.
             (Some(_), None) => Some(spacing.max(polygon.area().sqrt())),
         },
         is_non_obtuse: args.no_obtuse,
         min_angle_deg: args.min_angle,
-        fixed: args.fixed.as_deref().map(read_positions).transpose()?.unwrap_or_default(),
-        lines: args.lines.as_deref().map(read_lines).transpose()?.unwrap_or_default(),
-        wanted: wanted.as_ref().map(|wanted| wanted as &(dyn Fn([f64; 2]) -> f64 + Sync)),
+        fixed: fixed.clone(),
+        lines: lines.clone(),
         seed: args.seed,
         ..MeshParams::new(spacing)
     };
-    params.validate().map_err(|e| measured::told(e, &args.input, &FLAGS))?;
+    params_of(spacing).validate().map_err(told)?;
+    if let Some(n_triangles) = args.n_triangles {
+        for _ in 0..ESTIMATES {
+            let wanted = wanted(spacing);
+            let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
+            let expected = expected_triangles(&polygon, &params).map_err(told)?;
+            spacing *= (expected / n_triangles as f64).sqrt();
+        }
+    }
+    let wanted = wanted(spacing);
+    let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
 
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
@@ -64,7 +76,7 @@ pub fn run(args: &Mesh) -> anyhow::Result<ExitCode> {
         mesh(&polygon, &params, &mut context)
     });
     bar.finish_and_clear();
-    let (mesh, report) = made.map_err(|e| measured::told(e, &args.input, &FLAGS))?;
+    let (mesh, report) = made.map_err(told)?;
     notes.extend(report.notes.iter().cloned());
     let quality = mesh_quality(&mesh);
     let missed = unmet(&mesh, args.min_angle, args.no_obtuse);

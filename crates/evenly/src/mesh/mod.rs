@@ -39,6 +39,7 @@ use crate::error::Error;
 use crate::points::{MAX_POINTS, Random};
 use crate::polygon::Polygon;
 use crate::run::{Outcome, Phase, Report, RunContext};
+use crate::space::Domain;
 
 /// What [`mesh`] can be told.
 #[derive(Clone, Serialize)]
@@ -84,6 +85,19 @@ impl MeshParams<'_> {
             lines: Vec::new(),
             wanted: None,
             seed: 0,
+        }
+    }
+
+    /// How the spacing is to vary, in normalised units.
+    fn grading<'a>(&self, domain: &Domain, wanted: Option<&'a (dyn Fn(DVec2) -> f64 + Sync)>) -> Grading<'a> {
+        let unit = domain.restore_length(1.0);
+        Grading {
+            on_border: self.spacing / unit,
+            largest: self.largest.unwrap_or(self.spacing) / unit,
+            growth: self.growth,
+            floor: (FLOOR * self.spacing / unit).max(outline::LEAST),
+            max_vertices: MAX_POINTS / 4,
+            wanted,
         }
     }
 
@@ -174,27 +188,13 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     params.validate()?;
     run.enter(Phase::Triangulate);
     let domain = polygon.domain();
-    let unit = domain.restore_length(1.0);
-    let spacing = params.spacing / unit;
-    let largest = params.largest.map_or(spacing, |largest| largest / unit);
-    let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / unit);
-    let grading = Grading {
-        on_border: spacing,
-        largest,
-        growth: params.growth,
-        floor: (FLOOR * spacing).max(outline::LEAST),
-        max_vertices: MAX_POINTS / 4,
-        wanted: wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)),
-    };
+    let spacing = params.spacing / domain.restore_length(1.0);
+    let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / domain.restore_length(1.0));
+    let grading = params.grading(&domain, wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)));
 
     // 1. What the mesh must keep; sharp corners are set apart, and the spacing is found for every place.
     let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
     let (outline, caps, mut background) = graded(&whole, &grading)?;
-
-    let least = least_mass(&background.sizing);
-    if least > MAX_POINTS as f64 {
-        return Err(Error::TooManyPoints(least.min(1e18) as usize, MAX_POINTS));
-    }
 
     // 2. Points on the border and on lines, and a spacing that fits them.
     let parts = border::divide(&outline, &mut background);
@@ -234,6 +234,20 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     Ok((mesh, report))
 }
 
+/// About how many triangles a mesh will have: what the spacing asks for.
+///
+/// # Errors
+/// As [`mesh`].
+pub fn expected_triangles(polygon: &Polygon, params: &MeshParams) -> Result<f64, Error> {
+    params.validate()?;
+    let domain = polygon.domain();
+    let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / domain.restore_length(1.0));
+    let grading = params.grading(&domain, wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)));
+    let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
+    let (_, caps, background) = graded(&whole, &grading)?;
+    Ok(2.0 * total_mass(&background.sizing) + caps.len() as f64)
+}
+
 /// The outline without its sharp corners, these as caps, and the spacing. Where it asks for more points at the base of a cap, the cap was too large.
 fn graded(whole: &Outline, grading: &Grading) -> Result<(Outline, Vec<Cap>, Background), Error> {
     let planar = whole.triangulated()?;
@@ -247,6 +261,10 @@ fn graded(whole: &Outline, grading: &Grading) -> Result<(Outline, Vec<Cap>, Back
         let is_large = |cap: &&Cap| lengths[cap.base as usize] > LONGEST_BASE;
         let n_large = caps.iter().filter(is_large).count();
         if n_large == 0 || n_tries == MOST_TRIES {
+            let least = least_mass(&background.sizing);
+            if least > MAX_POINTS as f64 {
+                return Err(Error::TooManyPoints(least.min(1e18) as usize, MAX_POINTS));
+            }
             return Ok((outline, caps, background));
         }
         for cap in caps.iter().filter(is_large) {

@@ -1,0 +1,154 @@
+//! The command line with polygons: `evenly mesh`.
+
+#![allow(clippy::unwrap_used)]
+
+mod shapes;
+mod shell;
+
+use std::fmt::Write as _;
+
+use serde_json::Value;
+use shapes::{Ring, holed_square, l_shape, star};
+use shell::{Shell, json};
+
+fn text(rings: &[Ring]) -> String {
+    let mut text = String::new();
+    for ring in rings {
+        for [x, y] in ring {
+            let _ = writeln!(text, "{x} {y}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn shell() -> Shell {
+    let shell = Shell::new();
+    shell.write("l.txt", text(&l_shape()));
+    shell.write("hole.txt", text(&holed_square()));
+    shell.write("star.txt", text(&star(7, 0.3)));
+    shell
+}
+
+fn report(shell: &Shell, name: &str) -> Value {
+    json(&shell.read(name))
+}
+
+#[test]
+fn every_format_holds_the_same_mesh() {
+    let shell = shell();
+    shell.ok("mesh hole.txt --spacing 0.1 -o m.obj --report m.json");
+    let quality = report(&shell, "m.json")["quality"].clone();
+    let (n_vertices, n_triangles) = (quality["n_vertices"].as_u64().unwrap(), quality["n_triangles"].as_u64().unwrap());
+    let n_edges = quality["n_border_edges"].as_u64().unwrap();
+    let count = |name: &str, start: &str| shell.read(name).lines().filter(|line| line.starts_with(start)).count() as u64;
+    assert_eq!((count("m.obj", "v "), count("m.obj", "f ")), (n_vertices, n_triangles));
+    for format in ["msh", "vtu", "ply", "off", "stl", "geojson", "npz", "svg", "png", "pdf"] {
+        shell.ok(&format!("mesh hole.txt --spacing 0.1 -q -o m.{format}"));
+    }
+    assert!(shell.read("m.off").contains(&format!("\n{n_vertices} {n_triangles} 0\n")));
+    assert!(shell.read("m.ply").contains(&format!("element vertex {n_vertices}\n")));
+    let msh = shell.read("m.msh");
+    let elements = n_triangles + n_edges;
+    // Eight segments of the border, a curve each, and the inside.
+    assert!(msh.contains(&format!("$Elements\n9 {elements} 1 {elements}\n")) && msh.contains("$Entities\n0 8 1 0\n"), "{msh}");
+    assert!(shell.read("m.vtu").contains(&format!("NumberOfPoints=\"{n_vertices}\" NumberOfCells=\"{elements}\"")));
+    assert_eq!(std::fs::read(shell.path("m.stl")).unwrap().len() as u64, 84 + 50 * n_triangles);
+    assert_eq!(report(&shell, "m.geojson")["features"].as_array().unwrap().len() as u64, n_triangles);
+    // All was seeded alike.
+    assert!(shell.read("m.svg").contains("mesh hole.txt --spacing 0.1 -q -o m.svg (seed 0)"));
+    assert_eq!(shell.ok("mesh hole.txt --spacing 0.1 -q -o - --format off").lines().count() as u64, 3 + n_vertices + n_triangles);
+}
+
+#[test]
+fn the_record_tells_the_quality() {
+    let shell = shell();
+    let record = json(&shell.ok("mesh l.txt --spacing 0.05 --seed 3 --json -q -o l.msh"));
+    let quality = &record["quality"];
+    let number = |name: &str| quality[name].as_f64().unwrap();
+    assert!(number("min_angle_deg") > 41.0 && number("max_angle_deg") < 97.0 && number("beta") < 0.757, "{quality}");
+    assert_eq!(record["parameters"]["seed"], 3);
+    assert_eq!(record["run"]["outcome"], "converged");
+    assert!(record["uncovered_area"].as_f64().unwrap() < 1e-12 && record["unmet"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn a_number_of_triangles_is_about_kept() {
+    let shell = shell();
+    for n in [300.0, 5000.0] {
+        let record = json(&shell.ok(&format!("mesh star.txt -n {n} --json -q --force -o s.msh")));
+        let found = record["quality"]["n_triangles"].as_f64().unwrap();
+        assert!((found / n - 1.0).abs() < 0.25, "{found} of {n}");
+    }
+}
+
+#[test]
+fn demands_that_are_missed_are_told_with_place_and_reason() {
+    let shell = shell();
+    shell.ok("mesh l.txt --spacing 0.05 --no-obtuse --min-angle 30 -o l.msh");
+    shell.ok("mesh star.txt --spacing 0.05 --min-angle 25 -o s.msh");
+    // Between two segments at an angle of 100 degrees there is either an obtuse triangle or a point too many.
+    shell.write("narrow.txt", "0 0\n1 0\n1 0.001\n0.5 0.00101\n0 0.001\n");
+    let output = shell.run("mesh narrow.txt --spacing 0.2 --no-obtuse --min-angle 35 -o n.msh");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("not reached: ") && said.contains(" degrees at (") && said.contains("narrow"), "{said}");
+    assert!(shell.files().contains(&"n.msh".into()));
+}
+
+#[test]
+fn sizes_lines_and_fixed_points_come_from_files() {
+    let shell = shell();
+    shell.write("fixed.txt", "0.25 0.25\n0.1 0.8\n");
+    shell.write("lines.txt", "0.1 0.1\n0.4 0.4\n\n0 0.6\n0.5 0.6\n");
+    shell.write("sizes.txt", "0.9 0.1 0.01\n0.1 0.9 0.1 # coarse\n");
+    shell.ok("mesh l.txt --spacing 0.1 --fixed fixed.txt --lines lines.txt -q -o l.obj");
+    let vertices = shell.read("l.obj");
+    for vertex in ["0.25 0.25 0", "0.1 0.8 0", "0.4 0.4 0", "0 0.6 0", "0.5 0.6 0"] {
+        assert!(vertices.lines().any(|line| line == format!("v {vertex}")), "{vertex}");
+    }
+    let triangles = |flags: &str| {
+        json(&shell.ok(&format!("mesh l.txt --spacing 0.1 {flags} --json -q --force -o m.msh")))["quality"]["n_triangles"].as_u64().unwrap()
+    };
+    assert!(2 * triangles("--sizes sizes.txt") > 3 * triangles(""));
+    let fine = json(&shell.ok("mesh l.txt --spacing 0.02 --json -q -o fine.msh"))["quality"]["n_triangles"].as_u64().unwrap();
+    let graded =
+        json(&shell.ok("mesh l.txt --spacing 0.02 --grade 0.3 --json -q -o graded.msh"))["quality"]["n_triangles"].as_u64().unwrap();
+    assert!(2 * graded < fine, "{graded} {fine}");
+}
+
+#[test]
+fn cells_are_written_beside() {
+    let shell = shell();
+    shell.ok("mesh hole.txt --spacing 0.1 -q -o m.obj --cells cells.geojson");
+    let n_vertices = shell.read("m.obj").lines().filter(|line| line.starts_with("v ")).count();
+    assert_eq!(report(&shell, "cells.geojson")["features"].as_array().unwrap().len(), n_vertices);
+}
+
+#[test]
+fn bad_usage_is_one_clear_line() {
+    let shell = shell();
+    shell.write("bow.txt", "0 0\n1 1\n1 0\n0 1\n");
+    shell.write("empty.txt", "# nothing\n");
+    shell.write("outside.txt", "5 5\n");
+    for (line, said) in [
+        ("mesh l.txt -o m.msh", "--spacing"),
+        ("mesh l.txt --spacing 0.1 -n 100 -o m.msh", "cannot be used with"),
+        ("mesh l.txt --spacing 0 -o m.msh", "--spacing is 0"),
+        ("mesh l.txt --spacing -1 -o m.msh", "--spacing is -1"),
+        ("mesh l.txt --spacing 1e-9 -o m.msh", "too many"),
+        ("mesh l.txt --spacing 0.1 --grade 3 -o m.msh", "--grade is 3"),
+        ("mesh l.txt --spacing 0.1 --min-angle 50 -o m.msh", "--min-angle is 50"),
+        ("mesh l.txt --spacing 0.1 --max-spacing 1 -o m.msh", "--grade"),
+        ("mesh l.txt --spacing 0.1 -o m.xyz", "unknown ending"),
+        ("mesh l.txt --spacing 0.1 -o m.msh --cells m.svg", ".geojson"),
+        ("mesh bow.txt --spacing 0.1 -o m.msh", "crosses itself"),
+        ("mesh empty.txt --spacing 0.1 -o m.msh", "there is no polygon in it"),
+        ("mesh missing.txt --spacing 0.1 -o m.msh", "missing.txt"),
+        ("mesh l.txt --spacing 0.1 --fixed outside.txt -o m.msh", "does not hold"),
+        ("mesh l.txt --spacing 0.1 -o l.txt", "exists already"),
+    ] {
+        let found = shell.refused(line);
+        assert!(found.contains(said), "{line}: {found}");
+    }
+}
