@@ -1,5 +1,7 @@
 //! Points find their places; where they cannot, some are added or removed, and they try again.
 
+use std::collections::HashMap;
+
 use super::aim::Aim;
 use super::outline::{Of, Outline};
 use super::repair::repair;
@@ -97,12 +99,8 @@ pub(super) fn badness(triangulation: &Triangulation, aim: &Aim) -> f64 {
 
 /// The state of the mesh, by vertex.
 fn settled(triangulation: Triangulation, mesh: &LiveMesh, bonds: &Bonds, source: &[u32], corners: &[u32]) -> Settled {
-    let n_points = bonds.tracks.len();
-    // Edges are on the border or on a line between vertices as they are between points; a point's several vertices are told apart by the triangulation.
-    let mut rails = std::collections::HashMap::with_capacity(n_points);
-    for (&[a, b], &rail) in bonds.border.iter().chain(&bonds.lines).zip(&bonds.on_rail) {
-        rails.insert([a, b], rail);
-    }
+    // Edges are on rails between vertices as they are between points; a point's several vertices are told apart by the triangulation.
+    let rails: HashMap<[u32; 2], u32> = bonds.edges.iter().map(|edge| (edge.ends, edge.rail)).collect();
     let half_edges = &triangulation.half_edges;
     let ends = (0..half_edges.origin.len() as u32).map(|h| [half_edges.origin[h as usize], half_edges.target(h)]);
     let edges = ends.filter_map(|ends| Some((ends, *rails.get(&ends.map(|v| source[v as usize]))?))).collect();

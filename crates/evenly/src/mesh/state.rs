@@ -10,7 +10,7 @@ use super::outline::{Of, Outline};
 use super::scatter::Scattered;
 use crate::points::hilbert_order;
 use crate::space::Domain;
-use crate::triangulation::{BORDER, Bonds, Track};
+use crate::triangulation::{BORDER, Bonds, Edge, Track};
 
 /// What holds the points, by point, and where they are.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ impl State {
         let mut points = outline.points.clone();
         let mut corners: Vec<u32> = (0..points.len() as u32).collect();
         let mut tracks = vec![Track::Fixed; points.len()];
-        let (mut border, mut lines) = (Vec::new(), Vec::new());
+        let mut edges = Vec::new();
         for ((rail, segment), parts) in (0..).zip(&outline.segments).zip(parts) {
             let first = points.len() as u32;
             points.extend(&parts.points);
@@ -37,22 +37,15 @@ impl State {
             tracks.extend(parts.points.iter().map(|_| Track::Rail(rail)));
             let [start, end] = segment.ends;
             let chain: Vec<u32> = std::iter::once(start).chain(first..points.len() as u32).chain([end]).collect();
-            let edges = if matches!(segment.of, Of::Line(_)) { &mut lines } else { &mut border };
-            edges.extend(chain.windows(2).map(|ends| ([ends[0], ends[1]], rail)));
+            let is_line = matches!(segment.of, Of::Line(_));
+            edges.extend(chain.windows(2).map(|ends| Edge { ends: [ends[0], ends[1]], rail, is_line }));
         }
         tracks.extend(inside.points.iter().map(|_| Track::Free));
         points.extend(inside.points);
         hints.extend(inside.hints);
         corners.resize(points.len(), BORDER);
-        let bonds = Bonds {
-            tracks,
-            rails: outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect(),
-            on_rail: border.iter().chain(&lines).map(|&(_, rail)| rail).collect(),
-            border: border.into_iter().map(|(ends, _)| ends).collect(),
-            lines: lines.into_iter().map(|(ends, _)| ends).collect(),
-            sizing: Arc::new(sizing),
-            hints,
-        };
+        let rails = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
+        let bonds = Bonds { tracks, rails, edges, sizing: Arc::new(sizing), hints };
         Self { points, corners, bonds }
     }
 
@@ -61,7 +54,6 @@ impl State {
         let order = hilbert_order(&self.points, domain.size);
         let mut number = vec![0u32; self.points.len()];
         order.iter().zip(0..).for_each(|(&point, k)| number[point as usize] = k);
-        let renumbered = |edges: &[[u32; 2]]| edges.iter().map(|ends| ends.map(|v| number[v as usize])).collect();
         let Self { points, corners, bonds } = self;
         Self {
             points: order.iter().map(|&point| points[point as usize]).collect(),
@@ -69,8 +61,7 @@ impl State {
             bonds: Bonds {
                 tracks: order.iter().map(|&point| bonds.tracks[point as usize]).collect(),
                 hints: order.iter().map(|&point| bonds.hints[point as usize]).collect(),
-                border: renumbered(&bonds.border),
-                lines: renumbered(&bonds.lines),
+                edges: bonds.edges.iter().map(|edge| Edge { ends: edge.ends.map(|v| number[v as usize]), ..*edge }).collect(),
                 ..bonds
             },
         }

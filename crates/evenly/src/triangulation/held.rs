@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 use glam::DVec2;
 
 use super::half_edges::prev;
-use super::planar::{Graph, Planar};
+use super::planar::Planar;
 use super::sizing::Sizing;
 
 /// Where a point may go.
@@ -21,26 +21,34 @@ pub(crate) enum Track {
     Fixed,
 }
 
+/// An edge that must be there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Edge {
+    /// Its points; on the border with the inside on their left.
+    pub ends: [u32; 2],
+    /// The rail on which it lies.
+    pub rail: u32,
+    /// Whether it lies inside, not on the border.
+    pub is_line: bool,
+}
+
 /// The points' bonds, by point.
 #[derive(Debug, Clone)]
 pub(crate) struct Bonds {
     pub tracks: Vec<Track>,
     /// The two ends of each rail.
     pub rails: Vec<[DVec2; 2]>,
-    /// The border's segments and the lines inside, between points.
-    pub border: Vec<[u32; 2]>,
-    pub lines: Vec<[u32; 2]>,
-    /// On which rail each of them lies: first those of the border, then the lines.
-    pub on_rail: Vec<u32>,
+    /// The edges on the border and on lines.
+    pub edges: Vec<Edge>,
     pub sizing: Arc<Sizing>,
     /// The triangle of the sizing in which each point is, or one nearby.
     pub hints: Vec<u32>,
 }
 
 impl Bonds {
-    /// The points and the segments between them.
-    pub fn graph<'a>(&'a self, points: &'a [DVec2]) -> Graph<'a> {
-        Graph { points, border: &self.border, lines: &self.lines }
+    /// The ends of the edges on the border, and of those on lines.
+    pub fn segments(&self) -> [Vec<[u32; 2]>; 2] {
+        [false, true].map(|is_line| self.edges.iter().filter(|edge| edge.is_line == is_line).map(|edge| edge.ends).collect())
     }
 
     /// The part of a move that a point can make.

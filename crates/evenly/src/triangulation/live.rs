@@ -10,7 +10,7 @@ use super::frame::{FRAME, framed};
 use super::half_edges::{BORDER, next};
 use super::held::{Bonds, Held};
 use super::mesh::Triangulation;
-use super::planar::{Crossing, planar};
+use super::planar::{Crossing, Graph, planar};
 use super::shared::{SharedMesh, Territory};
 use crate::density::Field;
 use crate::error::Error;
@@ -73,7 +73,8 @@ impl LiveMesh {
     /// # Errors
     /// [`Crossing`] where two segments between the points cross.
     pub fn bounded(base: &Domain, points: &[DVec2], bonds: Bonds, spacing: f64) -> Result<Self, Crossing> {
-        let planar = planar(bonds.graph(points))?;
+        let [border, lines] = bonds.segments();
+        let planar = planar(Graph { points, border: &border, lines: &lines })?;
         let mesh = SharedMesh::new(&planar.half_edges, &planar.positions);
         Ok(Self {
             mesh,

@@ -24,7 +24,7 @@ mod walls;
 pub(crate) use chunks::Chunks;
 pub(crate) use delaunay::delaunay;
 pub(crate) use half_edges::{BORDER, HalfEdges, next, prev};
-pub(crate) use held::{Bonds, Track};
+pub(crate) use held::{Bonds, Edge, Track};
 pub(crate) use live::{LiveMesh, Outside};
 pub(crate) use mesh::{Triangulation, circumcentre};
 pub(crate) use patch::Patch;
