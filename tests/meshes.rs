@@ -165,6 +165,26 @@ fn fixed_points_are_vertices_and_lines_are_edges() {
 }
 
 #[test]
+fn lines_may_overlap_and_touch() {
+    let polygon = polygon(vec![vec![[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]]);
+    let lines =
+        vec![vec![[0.1, 0.1], [0.3, 0.3]], vec![[0.0, 0.0], [0.5, 0.5]], vec![[0.0, 0.0], [1.0, 0.0]], vec![[0.3, 0.3], [0.3, 0.3]]];
+    let fixed = vec![[0.0, 0.0], [0.5, 0.0], [0.25, 0.25], [0.25, 0.25]];
+    let mesh = meshed(&polygon, &MeshParams { lines, fixed, ..MeshParams::new(0.05) });
+    prove(&polygon, &mesh).unwrap();
+    let is_diagonal = |&[x, y]: &[f64; 2]| (x - y).abs() < 1e-9 && x < 0.5 + 1e-9;
+    let length: f64 = mesh
+        .edges
+        .iter()
+        .map(|edge| edge.ends.map(|v| mesh.vertices[v]))
+        .filter(|ends| ends.iter().all(is_diagonal))
+        .map(|[a, b]| distance(a, b))
+        .sum();
+    assert!((length - 0.5f64.sqrt()).abs() < 1e-9, "{length}");
+    assert!(mesh_quality(&mesh).min_angle_deg > 17.0, "{:?}", mesh_quality(&mesh));
+}
+
+#[test]
 fn the_spacing_may_grow_away_from_the_border_or_be_given() {
     let square = polygon(vec![rectangle([0.0, 0.0], [1.0, 1.0])]);
     let even = meshed(&square, &MeshParams::new(0.02));

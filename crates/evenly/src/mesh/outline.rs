@@ -50,8 +50,9 @@ impl Outline {
         }
         for (number, line) in (0..).zip(lines) {
             let ends = line.iter().map(|&point| outline.add(&domain, point)).collect::<Result<Vec<u32>, Error>>()?;
-            let pairs = ends.windows(2).filter(|pair| pair[0] != pair[1]).map(|pair| [pair[0], pair[1]]);
-            outline.segments.extend(pairs.map(|ends| Segment { ends, of: Of::Line(number) }));
+            for pair in ends.windows(2) {
+                outline.add_line([pair[0], pair[1]], number);
+            }
         }
         // Where a line runs along the border or another, it is there already.
         let mut seen = std::collections::HashSet::new();
@@ -96,6 +97,22 @@ impl Outline {
         self.points.push(at);
         self.given.push(given);
         Ok(number)
+    }
+
+    /// Adds a line from point to point, in pieces where others lie on it.
+    fn add_line(&mut self, [from, to]: [u32; 2], number: u32) {
+        let [start, end] = [from, to].map(|v| self.points[v as usize]);
+        let way = end - start;
+        let share = |p: DVec2| (p - start).dot(way) / way.length_squared();
+        let is_on_it = |p: DVec2| (0.0..=1.0).contains(&share(p)) && p.distance(start + share(p) * way) < ON_BORDER;
+        let others = (0..).zip(&self.points).filter(|&(v, &p)| v != from && v != to && is_on_it(p));
+        let mut between: Vec<(f64, u32)> = others.map(|(v, &p)| (share(p), v)).collect();
+        between.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut at = from;
+        for next in between.into_iter().map(|(_, v)| v).chain([to]).filter(|&next| next != from) {
+            self.segments.push(Segment { ends: [at, next], of: Of::Line(number) });
+            at = next;
+        }
     }
 
     /// The triangulation of what the border encloses.
