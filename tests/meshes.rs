@@ -191,6 +191,8 @@ fn the_spacing_may_grow_away_from_the_border_or_be_given() {
     let graded = meshed(&square, &MeshParams { largest: Some(0.2), growth: 0.2, ..MeshParams::new(0.02) });
     assert!(graded.vertices.len() * 3 < even.vertices.len(), "{} {}", graded.vertices.len(), even.vertices.len());
     assert!(mesh_quality(&graded).min_angle_deg > 33.0);
+    let [even, graded] = [None, Some(2.0)].map(|largest| meshed(&square, &MeshParams { largest, growth: 1.0, ..MeshParams::new(0.1) }));
+    assert!(graded.vertices.len() + 20 < even.vertices.len(), "{} {}", graded.vertices.len(), even.vertices.len());
     let wanted = |[x, _]: [f64; 2]| 0.01 + 0.09 * x;
     let given = meshed(&square, &MeshParams { wanted: Some(&wanted), ..MeshParams::new(0.1) });
     let n_left = given.vertices.iter().filter(|p| p[0] < 0.2).count();
@@ -201,10 +203,12 @@ fn the_spacing_may_grow_away_from_the_border_or_be_given() {
 #[test]
 fn the_cells_of_all_vertices_cover_the_domain() {
     let area = |cell: &Vec<[f64; 2]>| -> f64 {
-        let sides = cell.iter().zip(cell.iter().cycle().skip(1));
+        let ways = cell.iter().map(|p| [p[0] - cell[0][0], p[1] - cell[0][1]]);
+        let sides = ways.clone().zip(ways.cycle().skip(1));
         0.5 * sides.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
     };
-    for rings in [l_shape(), holed_square(), circle(40)] {
+    let far = moved(&holed_square(), 0.3, 1.0, [1e6, -3e6]);
+    for rings in [l_shape(), holed_square(), circle(40), far] {
         let polygon = polygon(rings);
         let cells = mesh_cells(&meshed(&polygon, &MeshParams::new(0.05)));
         let covered: f64 = cells.iter().map(area).sum();
@@ -268,12 +272,23 @@ fn what_can_be_repaired_is_and_is_told() {
 }
 
 #[test]
+fn parts_that_touch_in_sharp_corners_share_the_vertex() {
+    let right = vec![[0.0, 0.0], [10.0, 1.0], [10.0, -1.0]];
+    let polygon = polygon(vec![right.iter().map(|[x, y]| [-x, *y]).collect(), right]);
+    let mesh = meshed(&polygon, &MeshParams::new(1.0));
+    prove(&polygon, &mesh).unwrap();
+    assert_eq!(mesh.vertices.iter().filter(|p| **p == [0.0, 0.0]).count(), 1);
+}
+
+#[test]
 fn what_lies_outside_is_refused() {
     let polygon = polygon(l_shape());
     let refused = |params: &MeshParams| mesh(&polygon, params, &mut RunContext::default()).map(|_| ()).unwrap_err().to_string();
     assert!(refused(&MeshParams { fixed: vec![[0.9, 0.9]], ..MeshParams::new(0.1) }).contains("does not hold"));
     assert!(refused(&MeshParams { fixed: vec![[9.0, 9.0]], ..MeshParams::new(0.1) }).contains("does not hold"));
     assert!(refused(&MeshParams { lines: vec![vec![[0.9, 0.2], [0.2, 0.9]]], ..MeshParams::new(0.1) }).contains("crosses"));
+    assert!(refused(&MeshParams { lines: vec![vec![[1.0, 0.5], [0.5, 1.0]]], ..MeshParams::new(0.1) }).contains("does not hold"));
+    assert!(refused(&MeshParams::new(1e-300)).contains("too many"));
     assert!(refused(&MeshParams::new(0.0)).contains("spacing"));
     assert!(refused(&MeshParams::new(1e-7)).contains("too many"));
 }

@@ -64,13 +64,14 @@ fn read(path: &Path, tolerance: Option<f64>) -> Result<(String, Shapes), Error> 
 
 fn parse(name: &str, bytes: &[u8], tolerance: Option<f64>) -> Result<Shapes, Error> {
     let no_text = || Error::content(name, "this is not text; polygons are read from GeoJSON, WKT, SVG, and rings as text");
-    let text = std::str::from_utf8(bytes).map_err(|_| no_text())?.trim_start_matches('\u{feff}').trim_start();
+    let whole = std::str::from_utf8(bytes).map_err(|_| no_text())?.trim_start_matches('\u{feff}');
+    let text = whole.trim_start();
     let problem = |text: String| Error::content(name, text);
     match text.chars().next() {
         Some('{') => geojson::read(text).map_err(problem),
         Some('<') => svg::read(text, tolerance).map_err(problem),
         Some(first) if first.is_ascii_alphabetic() => wkt::read(text).map_err(problem),
-        _ => rings::read(name, text),
+        _ => rings::read(name, whole),
     }
 }
 
@@ -135,6 +136,12 @@ mod tests {
         assert!(message("POLYGON ((0 0").starts_with("p: "));
         assert!(message("<svg").starts_with("p: "));
         assert!(message("0 nan\n").contains("not a finite number"));
+        assert!(message("\n\n0 0\n1 x\n").contains("p:4"));
+        assert!(message("POLYGON((0 0,1 0,1 1,0 0)) POLYGON((0 0,1 0,1 1,0 0))").contains("GEOMETRYCOLLECTION"));
+        assert!(message(&"GEOMETRYCOLLECTION(".repeat(100_000)).contains("deep"));
+        assert!(message(&format!("<svg>{}</svg>", "<g>".repeat(3000) + &"</g>".repeat(3000))).contains("deep"));
+        assert!(message("<svg><rect width='100%' height='1'/></svg>").contains("100%"));
+        assert!(message("<svg><use href='#a'/></svg>").contains("<use>"));
         assert!(parse("p", &[0xff, 0xfe, 0x00], None).unwrap_err().to_string().contains("not text"));
     }
 

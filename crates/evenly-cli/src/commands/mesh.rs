@@ -139,7 +139,7 @@ impl Targets {
         if let Some(cells) =
             args.cells.as_ref().filter(|cells| !cells.extension().is_some_and(|ending| ending == "geojson" || ending == "json"))
         {
-            bail!("{}: cells are written as .geojson", cells.display());
+            bail!("{}: cells are written as .geojson, to a file", cells.display());
         }
         let other = |path: &Option<std::path::PathBuf>| path.as_ref().map(|path| Target::any(path, force)).transpose();
         let (cells, report) = (other(&args.cells)?, other(&args.report)?);

@@ -7,6 +7,10 @@ use super::{Points, Shapes};
 
 /// How far off flattened curves may be, in the drawing's size, if nothing else is said.
 const TOLERANCE: f64 = 1e-3;
+/// And how near they are in any case, in the same.
+const FINEST: f64 = 1e-9;
+/// Groups in groups go no deeper than this.
+const DEEPEST: usize = 1000;
 
 pub(super) fn read(text: &str, tolerance: Option<f64>) -> Result<Shapes, String> {
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
@@ -16,9 +20,10 @@ pub(super) fn read(text: &str, tolerance: Option<f64>) -> Result<Shapes, String>
         return Err(format!("its root is <{}>, expected <svg>", root.tag_name().name()));
     }
     let mut paths = Vec::new();
-    collect(root, Affine::IDENTITY, &mut paths)?;
+    collect(root, Affine::IDENTITY, 0, &mut paths)?;
     let bounds = paths.iter().map(BezPath::bounding_box).reduce(|a, b| a.union(b)).unwrap_or_default();
-    let tolerance = tolerance.unwrap_or(TOLERANCE * bounds.width().max(bounds.height())).max(f64::MIN_POSITIVE);
+    let size = bounds.width().max(bounds.height());
+    let tolerance = tolerance.unwrap_or(TOLERANCE * size).max(FINEST * size).max(f64::MIN_POSITIVE);
     // The view box' lower side is where y is 0.
     let bottom = root.attribute("viewBox").map(numbers).transpose()?.filter(|view| view.len() == 4).map_or(0.0, |view| view[1] + view[3]);
     let mut shapes = Shapes::default();
@@ -50,7 +55,13 @@ pub(super) fn read(text: &str, tolerance: Option<f64>) -> Result<Shapes, String>
 }
 
 /// Gathers what elements draw, in the drawing's own units.
-fn collect(node: Node, outer: Affine, paths: &mut Vec<BezPath>) -> Result<(), String> {
+fn collect(node: Node, outer: Affine, depth: usize, paths: &mut Vec<BezPath>) -> Result<(), String> {
+    if depth > DEEPEST {
+        return Err(format!("groups lie more than {DEEPEST} deep in each other"));
+    }
+    if node.attribute("display") == Some("none") {
+        return Ok(());
+    }
     let own = match node.attribute("transform") {
         Some(text) => {
             let t: svgtypes::Transform = text.parse().map_err(|e| format!("transform {text:?}: {e}"))?;
@@ -87,8 +98,11 @@ fn collect(node: Node, outer: Affine, paths: &mut Vec<BezPath>) -> Result<(), St
         }
         "rect" => {
             let (x, y) = (number("x")?, number("y")?);
-            Some(Rect::new(x, y, x + number("width")?, y + number("height")?).to_path(EXACT))
+            let rect = Rect::new(x, y, x + number("width")?, y + number("height")?);
+            let radius = node.attribute("rx").or(node.attribute("ry")).map_or(Ok(0.0), |text| self::number("rx", text))?;
+            if radius > 0.0 { Some(rect.to_rounded_rect(radius).to_path(EXACT)) } else { Some(rect.to_path(EXACT)) }
         }
+        "use" => return Err("<use> is not read; let your program replace it by what it shows".into()),
         "circle" => Some(Circle::new((number("cx")?, number("cy")?), number("r")?).to_path(EXACT)),
         "ellipse" => Some(Ellipse::new((number("cx")?, number("cy")?), (number("rx")?, number("ry")?), 0.0).to_path(EXACT)),
         _ => None,
@@ -99,7 +113,7 @@ fn collect(node: Node, outer: Affine, paths: &mut Vec<BezPath>) -> Result<(), St
             paths.push(path);
         }
     }
-    node.children().filter(Node::is_element).try_for_each(|child| collect(child, place, paths))
+    node.children().filter(Node::is_element).try_for_each(|child| collect(child, place, depth + 1, paths))
 }
 
 /// How near curves come to round shapes, before they are flattened.
@@ -107,7 +121,10 @@ const EXACT: f64 = 1e-9;
 
 fn number(name: &str, text: &str) -> Result<f64, String> {
     let length: svgtypes::Length = text.parse().map_err(|_| format!("{name}={text:?} is not a number"))?;
-    Ok(length.number)
+    match length.unit {
+        svgtypes::LengthUnit::None | svgtypes::LengthUnit::Px => Ok(length.number),
+        _ => Err(format!("{name}={text:?} has a unit; lengths are read in the drawing's own")),
+    }
 }
 
 fn numbers(text: &str) -> Result<Vec<f64>, String> {

@@ -17,7 +17,7 @@ const ASPECT: f64 = 1.183;
 /// Where a spacing is given for each place, circumradii of the coarse mesh are up to so many of it.
 const COARSE: f64 = 2.0;
 /// Where the spacing grows away from the border, segments of the coarse mesh are up to so many of it.
-const FINE: f64 = 6.0;
+const FINE: f64 = 3.0;
 
 /// The spacing, and the segment of the outline on which each half-edge of its border lies, by its ends.
 pub(super) struct Background {
@@ -37,6 +37,8 @@ pub(super) struct Grading<'a> {
     pub growth: f64,
     /// Details below this are not followed.
     pub floor: f64,
+    /// And nothing is shorter than this.
+    pub least: f64,
     pub max_vertices: usize,
     /// A spacing for each place, where one is given: it may be less than the others.
     pub wanted: Option<&'a (dyn Fn(DVec2) -> f64 + Sync)>,
@@ -52,20 +54,20 @@ pub(super) fn background(outline: &Outline, planar: Planar, grading: &Grading) -
     });
     let segments = segments.collect();
     let source = planar.source.clone();
-    let largest = grading.wanted.map(|wanted| move |p: DVec2| COARSE * wanted(p));
+    let largest = grading.wanted.map(|wanted| move |p: DVec2| COARSE * wanted(p).max(grading.least));
     let largest = largest.as_ref().map(|largest| largest as &(dyn Fn(DVec2) -> f64 + Sync));
     let longest = if grading.largest > grading.on_border { FINE * grading.on_border } else { f64::INFINITY };
     let refining =
         Refining { longest, aspect: ASPECT, floor: grading.floor, halves_all: true, max_vertices: grading.max_vertices, largest };
-    let Refinement { half_edges, positions, segments } = Refinement::run(planar, segments, refining);
+    let Refinement { half_edges, positions, segments, .. } = Refinement::run(planar, segments, refining);
 
-    let wanted = |&p: &DVec2| grading.wanted.map_or(f64::INFINITY, |wanted| wanted(p).max(grading.floor));
+    let wanted = |&p: &DVec2| grading.wanted.map_or(f64::INFINITY, |wanted| wanted(p).max(grading.least));
     let mut sizes: Vec<f64> = positions.iter().map(|p| wanted(p).min(grading.largest)).collect();
     for h in 0..half_edges.origin.len() as u32 {
         let (a, b) = (half_edges.origin[h as usize] as usize, half_edges.target(h) as usize);
         let length = positions[a].distance(positions[b]);
         // A short segment is a fact; that the domain is thin is followed to the floor alone.
-        let length = if half_edges.is_border(h) { length.min(grading.on_border) } else { length.clamp(grading.floor, grading.largest) };
+        let length = if half_edges.is_border(h) { length.min(grading.on_border) } else { length.max(grading.floor).min(grading.largest) };
         sizes[a] = sizes[a].min(length);
         sizes[b] = sizes[b].min(length);
     }

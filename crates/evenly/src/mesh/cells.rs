@@ -7,10 +7,10 @@ use glam::DVec2;
 use super::Mesh;
 use crate::triangulation::circumcentre;
 
-/// The Voronoi cell of each vertex as a polygon, counter-clockwise, in input units; the cells cover the domain. Where a triangle at the border is obtuse there, its circumcentre lies outside, and
-/// the cells end at the border instead.
+/// The Voronoi cell of each vertex as a polygon, counter-clockwise, in input units. Where a triangle at the border is obtuse there, its circumcentre lies outside, and the cells end at the border
+/// instead; so they cover the domain, as long as no circumcentre lies farther out than that, as in thin triangles.
 ///
-/// A vertex at which parts of the domain touch has the cell of one of them.
+/// Where parts of the domain touch in a vertex, it has the cell of one of them.
 pub fn mesh_cells(mesh: &Mesh) -> Vec<Vec<[f64; 2]>> {
     let Mesh { vertices, triangles, .. } = mesh;
     let at = |v: usize| DVec2::from(vertices[v]);
@@ -58,7 +58,9 @@ pub fn mesh_cells(mesh: &Mesh) -> Vec<Vec<[f64; 2]>> {
 
 /// Adds what triangle (v, b, c) adds to the cell of v: its circumcentre, and the middles of sides on the border; where the circumcentre lies behind one, the places where the bisectors end there.
 fn add_corners(cell: &mut Vec<DVec2>, [v, b, c]: [DVec2; 3], [vb, bc, cv]: [bool; 3]) {
-    let centre = v + circumcentre(b - v, c - v);
+    // Relative to v, which may be far from 0.
+    let (at, v, b, c) = (v, DVec2::ZERO, b - v, c - v);
+    let centre = circumcentre(b, c);
     let is_behind = |from: DVec2, to: DVec2| (to - from).perp_dot(centre - from) < 0.0;
     // Where the bisector of p and q meets the side from `from` to `to`.
     let end = |p: DVec2, q: DVec2, from: DVec2, to: DVec2| {
@@ -66,19 +68,19 @@ fn add_corners(cell: &mut Vec<DVec2>, [v, b, c]: [DVec2; 3], [vb, bc, cv]: [bool
         from + (to - from) * ((excess - way.dot(from)) / way.dot(to - from))
     };
     if vb && is_behind(v, b) {
-        cell.push(end(v, c, v, b));
+        cell.push(at + end(v, c, v, b));
     } else if cv && is_behind(c, v) {
-        cell.push(end(v, b, c, v));
+        cell.push(at + end(v, b, c, v));
         return;
     } else if bc && is_behind(b, c) {
-        cell.extend([end(v, b, b, c), end(v, c, b, c)]);
+        cell.extend([at + end(v, b, b, c), at + end(v, c, b, c)]);
     } else {
         if vb {
-            cell.push(0.5 * (v + b));
+            cell.push(at + 0.5 * b);
         }
-        cell.push(centre);
+        cell.push(at + centre);
     }
     if cv {
-        cell.push(0.5 * (c + v));
+        cell.push(at + 0.5 * c);
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: 
     let aspect = 0.5 / refined_deg.to_radians().sin();
     let planar = Planar { half_edges, positions, ..Planar::default() };
     let refining = Refining { longest: f64::INFINITY, aspect, floor, halves_all: false, max_vertices: 2 * n_settled + 1000, largest: None };
-    let Refinement { half_edges, positions, segments } = Refinement::run(planar, edges.into_iter().collect(), refining);
+    let Refinement { half_edges, positions, segments, .. } = Refinement::run(planar, edges.into_iter().collect(), refining);
     corners.resize(positions.len(), BORDER);
 
     // Vertices of one corner are one; those as they were given keep their bits.
@@ -51,8 +51,11 @@ pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: 
         }
     }
     for cap in caps {
-        let tip = mesh.vertices.len();
-        mesh.vertices.push(outline.given[cap.corners[0] as usize]);
+        let corner = cap.corners[0];
+        let tip = *numbers.entry(corner).or_insert(mesh.vertices.len());
+        if tip == mesh.vertices.len() {
+            mesh.vertices.push(outline.given[corner as usize]);
+        }
         let sides = bases.get(&cap.base).map(Vec::as_slice).unwrap_or_default();
         mesh.triangles.extend(sides.iter().map(|&[from, to]| [tip, to, from]));
         let [p, q] = [cap.corners[1], cap.corners[2]].map(|end| numbers[&end]);

@@ -39,7 +39,7 @@ use crate::error::Error;
 use crate::points::{MAX_POINTS, Random};
 use crate::polygon::Polygon;
 use crate::run::{Outcome, Phase, Report, RunContext};
-use crate::space::Domain;
+use crate::space::{Domain, Space};
 
 /// What [`mesh`] can be told.
 #[derive(Clone, Serialize)]
@@ -89,13 +89,16 @@ impl MeshParams<'_> {
     }
 
     /// How the spacing is to vary, in normalised units.
-    fn grading<'a>(&self, domain: &Domain, wanted: Option<&'a (dyn Fn(DVec2) -> f64 + Sync)>) -> Grading<'a> {
+    fn grading<'a>(&self, domain: &Domain, resolution: f64, wanted: Option<&'a (dyn Fn(DVec2) -> f64 + Sync)>) -> Grading<'a> {
         let unit = domain.restore_length(1.0);
+        // Not finer than the numbers are, inside or in input units.
+        let least = outline::LEAST.max(RESOLVED * resolution / unit);
         Grading {
             on_border: self.spacing / unit,
             largest: self.largest.unwrap_or(self.spacing) / unit,
             growth: self.growth,
-            floor: (FLOOR * self.spacing / unit).max(outline::LEAST),
+            floor: (FLOOR * self.spacing / unit).max(least),
+            least,
             max_vertices: MAX_POINTS / 4,
             wanted,
         }
@@ -162,6 +165,8 @@ pub enum EdgeKind {
 
 /// The smallest spacing that the domain's details are followed to, in wanted spacings.
 const FLOOR: f64 = 1.0 / 64.0;
+/// The shortest lengths, in distances between neighbouring f64.
+const RESOLVED: f64 = 1e3;
 /// The base of a cap is at most so many spacings long; caps are made smaller so often.
 const LONGEST_BASE: f64 = 1.3;
 const MOST_TRIES: usize = 8;
@@ -190,11 +195,17 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     let domain = polygon.domain();
     let spacing = params.spacing / domain.restore_length(1.0);
     let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / domain.restore_length(1.0));
-    let grading = params.grading(&domain, wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)));
+    let grading = params.grading(
+        &domain,
+        Space::from(*polygon.frame()).resolution(),
+        wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)),
+    );
+
+    require_few(polygon.area() / (domain.restore_length(1.0).powi(2) * grading.largest.powi(2)))?;
 
     // 1. What the mesh must keep; sharp corners are set apart, and the spacing is found for every place.
     let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
-    let (outline, caps, mut background) = graded(&whole, &grading)?;
+    let (outline, caps, mut background) = graded(&whole, &domain, &grading)?;
 
     // 2. Points on the border and on lines, and a spacing that fits them.
     let parts = border::divide(&outline, &mut background);
@@ -234,6 +245,12 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     Ok((mesh, report))
 }
 
+/// # Errors
+/// [`Error::TooManyPoints`] where there would be more than [`MAX_POINTS`].
+fn require_few(n_points: f64) -> Result<(), Error> {
+    if n_points > MAX_POINTS as f64 { Err(Error::TooManyPoints(n_points.min(1e18) as usize, MAX_POINTS)) } else { Ok(()) }
+}
+
 /// About how many triangles a mesh will have: what the spacing asks for.
 ///
 /// # Errors
@@ -242,29 +259,31 @@ pub fn expected_triangles(polygon: &Polygon, params: &MeshParams) -> Result<f64,
     params.validate()?;
     let domain = polygon.domain();
     let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / domain.restore_length(1.0));
-    let grading = params.grading(&domain, wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)));
+    let grading = params.grading(
+        &domain,
+        Space::from(*polygon.frame()).resolution(),
+        wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)),
+    );
+    require_few(polygon.area() / (domain.restore_length(1.0).powi(2) * grading.largest.powi(2)))?;
     let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
-    let (_, caps, background) = graded(&whole, &grading)?;
+    let (_, caps, background) = graded(&whole, &domain, &grading)?;
     Ok(2.0 * total_mass(&background.sizing) + caps.len() as f64)
 }
 
 /// The outline without its sharp corners, these as caps, and the spacing. Where it asks for more points at the base of a cap, the cap was too large.
-fn graded(whole: &Outline, grading: &Grading) -> Result<(Outline, Vec<Cap>, Background), Error> {
-    let planar = whole.triangulated()?;
+fn graded(whole: &Outline, domain: &Domain, grading: &Grading) -> Result<(Outline, Vec<Cap>, Background), Error> {
+    let planar = whole.triangulated(domain)?;
     let mut radii = vec![grading.on_border; whole.points.len()];
     let mut n_tries = 0;
     loop {
         let (outline, caps) = cut_off(whole, &planar, &radii);
-        let background = background(&outline, outline.triangulated()?, grading);
+        let background = background(&outline, outline.triangulated(domain)?, grading);
         let lengths = border::lengths(&outline, &background);
         n_tries += 1;
         let is_large = |cap: &&Cap| lengths[cap.base as usize] > LONGEST_BASE;
         let n_large = caps.iter().filter(is_large).count();
         if n_large == 0 || n_tries == MOST_TRIES {
-            let least = least_mass(&background.sizing);
-            if least > MAX_POINTS as f64 {
-                return Err(Error::TooManyPoints(least.min(1e18) as usize, MAX_POINTS));
-            }
+            require_few(least_mass(&background.sizing))?;
             return Ok((outline, caps, background));
         }
         for cap in caps.iter().filter(is_large) {

@@ -1,9 +1,11 @@
 //! [`Outline`]: what a mesh must keep: the polygon's border, points that stay, lines that become edges.
 
+use std::collections::HashSet;
+
 use glam::DVec2;
 
 use crate::error::Error;
-use crate::polygon::Polygon;
+use crate::polygon::{Polygon, meetings};
 use crate::space::{Domain, GRID};
 use crate::triangulation::{Crossing, Graph, Planar, planar};
 
@@ -55,30 +57,31 @@ impl Outline {
             }
         }
         // Where a line runs along the border or another, it is there already.
-        let mut seen = std::collections::HashSet::new();
+        let mut seen = HashSet::new();
         outline.segments.retain(|segment| {
             let [a, b] = segment.ends;
             seen.insert([a.min(b), a.max(b)])
         });
-        let planar = outline.triangulated()?;
+        let planar = outline.triangulated(&domain)?;
         let mut is_inside = vec![false; outline.points.len()];
         planar.source.iter().for_each(|&point| is_inside[point as usize] = true);
-        match is_inside.iter().position(|&is| !is) {
-            Some(outside) => {
-                Err(Error::InvalidPolygon { problem: "does not hold a fixed point or a line".into(), at: outline.given[outside] })
-            }
+        let sorted = |ends: [u32; 2]| [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let kept: HashSet<[u32; 2]> = planar.lines.iter().map(|ends| sorted(ends.map(|v| planar.source[v as usize]))).collect();
+        let is_lost = |segment: &&Segment| matches!(segment.of, Of::Line(_)) && !kept.contains(&sorted(segment.ends));
+        let lost_line = outline.segments.iter().find(is_lost).map(|segment| segment.ends[0] as usize);
+        match is_inside.iter().position(|&is| !is).or(lost_line) {
+            Some(outside) => Err(does_not_hold(outline.given[outside])),
             None => Ok(outline),
         }
     }
 
     /// The number of a point, which is a new one unless it is there already. Where it lies on the border, the segment there becomes two.
     fn add(&mut self, domain: &Domain, given: [f64; 2]) -> Result<u32, Error> {
-        let outside = || Error::InvalidPolygon { problem: "does not hold a fixed point or a line".into(), at: given };
         let at = domain.normalize(given) + 0.0;
         let back = domain.restore(at);
         let unit = domain.restore_length(1.0);
         if !given.iter().zip(back).all(|(x, back)| (x - back).abs() <= ON_BORDER * unit) {
-            return Err(outside());
+            return Err(does_not_hold(given));
         }
         if let Some(number) = self.points.iter().position(|p| p.distance(at) < ON_BORDER) {
             return Ok(number as u32);
@@ -119,18 +122,24 @@ impl Outline {
     ///
     /// # Errors
     /// [`Error::InvalidPolygon`] where segments cross.
-    pub fn triangulated(&self) -> Result<Planar, Error> {
+    pub fn triangulated(&self, domain: &Domain) -> Result<Planar, Error> {
         let of_kind = |is_line: bool| -> Vec<[u32; 2]> {
             self.segments.iter().filter(|segment| matches!(segment.of, Of::Line(_)) == is_line).map(|segment| segment.ends).collect()
         };
         planar(Graph { points: &self.points, border: &of_kind(false), lines: &of_kind(true) }).map_err(|Crossing(crossed)| {
-            let at = crossed.first().and_then(|ends| self.given.get(ends[0] as usize)).copied().unwrap_or_default();
+            let all: Vec<[u32; 2]> = self.segments.iter().map(|segment| segment.ends).collect();
+            let met = meetings(&self.points, &all, &crossed).first().map(|meeting| meeting.at);
+            let at = domain.restore(met.unwrap_or(self.points[crossed[0][0] as usize]));
             Error::InvalidPolygon {
                 problem: "has a line that crosses another, or the border; or its border meets itself in rounding".into(),
                 at,
             }
         })
     }
+}
+
+fn does_not_hold(at: [f64; 2]) -> Error {
+    Error::InvalidPolygon { problem: "does not hold a fixed point or a line".into(), at }
 }
 
 /// The shortest segment that counts as one.

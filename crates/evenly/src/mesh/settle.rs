@@ -7,6 +7,7 @@ use super::outline::{Of, Outline};
 use super::repair::repair;
 use super::state::State;
 use crate::error::Error;
+use crate::optimize::PushPull;
 use crate::run::{Report, RunContext};
 use crate::space::Domain;
 use crate::sweep::{Ending, Plan, Sweep};
@@ -18,6 +19,9 @@ const TOLERANCE: f64 = 0.3;
 /// Passes until points count as restless, at first and after each repair.
 const PASSES: usize = 200;
 const LATER_PASSES: usize = 60;
+/// After so many passes it is seen whether they have helped: whether no more than this part of the restless points is so still.
+const STRETCH: usize = 20;
+const HELPED: f64 = 0.75;
 /// Repairs, and how many of them may bring nothing.
 const MOST_ROUNDS: usize = 40;
 const MOST_IN_VAIN: usize = 10;
@@ -61,17 +65,14 @@ pub(super) fn settle(
         let Ok(mesh) = LiveMesh::bounded(domain, &points, bonds, spacing) else { break };
         report.triangulations += 1;
         let mut sweep = Sweep::new(mesh);
-        let mut run_for = |rule, n_passes: usize, report: &mut Report| {
-            let plan = Plan { max_passes: report.iterations + n_passes, ..Plan::of_passes(PASSES + MOST_ROUNDS * LATER_PASSES, seed) };
-            sweep.run(&rule, &plan, run, report)
-        };
+        let mut rest = |rule, most| rest(&mut sweep, &rule, most, seed, run, report);
         let ending = if round == 0 {
-            match run_for(aim.rule(Some(TOLERANCE)), EVEN_PASSES, report) {
+            match rest(aim.rule(Some(TOLERANCE)), EVEN_PASSES) {
                 Ending::Cancelled => Ending::Cancelled,
-                _ => run_for(aim.rule(None), PASSES, report),
+                _ => rest(aim.rule(None), PASSES),
             }
         } else {
-            run_for(later.rule(None), LATER_PASSES, report)
+            rest(later.rule(None), LATER_PASSES)
         };
         let mut mesh = sweep.into_mesh();
         mesh.legalize();
@@ -89,6 +90,21 @@ pub(super) fn settle(
     }
     let meets_itself = || Error::Degenerate("the border is so fine that points on it meet in rounding; a larger spacing helps".into());
     best.map(|(_, settled)| settled).ok_or_else(meets_itself)
+}
+
+/// Sweeps as long as that brings points to rest, and so many passes at most.
+fn rest(sweep: &mut Sweep, rule: &PushPull, most: usize, seed: u64, run: &mut RunContext, report: &mut Report) -> Ending {
+    let end = report.iterations + most;
+    let mut restless = 1.0;
+    loop {
+        let plan = Plan { max_passes: end.min(report.iterations + STRETCH), ..Plan::of_passes(PASSES + MOST_ROUNDS * LATER_PASSES, seed) };
+        let ending = sweep.run(rule, &plan, run, report);
+        let left = report.stable_share.last().map_or(0.0, |share| 1.0 - share);
+        if ending != Ending::PassLimit || report.iterations >= end || left > HELPED * restless {
+            return ending;
+        }
+        restless = left;
+    }
 }
 
 /// How bad all triangles are.

@@ -13,13 +13,13 @@ const DOUBT: f64 = 1e-4;
 
 /// A place where two segments cross.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Meeting {
+pub(crate) struct Meeting {
     pub at: DVec2,
     pub segments: [[u32; 2]; 2],
 }
 
 /// Where `crossed` segments cross others.
-pub(super) fn meetings(corners: &[DVec2], sides: &[[u32; 2]], crossed: &[[u32; 2]]) -> Vec<Meeting> {
+pub(crate) fn meetings(corners: &[DVec2], sides: &[[u32; 2]], crossed: &[[u32; 2]]) -> Vec<Meeting> {
     let mut meetings = Vec::new();
     for &segment in crossed {
         let [a, b] = segment.map(|v| corners[v as usize]);

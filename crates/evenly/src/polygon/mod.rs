@@ -8,7 +8,8 @@ use std::collections::{HashMap, HashSet};
 use glam::DVec2;
 
 use self::clean::{Corner, clean};
-use self::crossings::{Meeting, cut, is_minor, meetings, twice_area};
+pub(crate) use self::crossings::meetings;
+use self::crossings::{Meeting, cut, is_minor, twice_area};
 use crate::error::Error;
 use crate::space::{Domain, Rectangle, Space};
 use crate::triangulation::{Crossing, Graph, HalfEdges, Planar, next, planar};

@@ -32,7 +32,7 @@ impl Cells {
     /// point move together.
     pub fn new(mesh: &mut LiveMesh) -> Self {
         let size = if mesh.is_cover() { DVec2::ZERO } else { mesh.domain().size };
-        let fitting = (size / (SIDE * mesh.spacing())).to_array();
+        let fitting = (size / (SIDE * mesh.typical_spacing())).to_array();
         let n_cells = fitting.map(|n| if n < 2.0 { 1 } else { 1 << (n.log2() as u32) }).map(|n: u32| n.min(MAX_CELLS));
         let mut cells = Self { n_cells, members: Vec::new(), starts: vec![0; (n_cells[0] * n_cells[1]) as usize + 1] };
         cells.assign(mesh);

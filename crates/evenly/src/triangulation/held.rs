@@ -88,14 +88,17 @@ pub(super) struct Held {
     /// How often the cell of a vertex must be taken to go all around it: a corner has only part of one.
     fullness: Vec<f64>,
     sizes: Vec<AtomicU64>,
+    /// The median of the spacings at first.
+    pub typical_size: f64,
     /// The triangle of the sizing in which each vertex was last.
     hints: Vec<AtomicU32>,
 }
 
 impl Held {
     pub fn new(bonds: Bonds, planar: &Planar) -> Self {
-        let Planar { half_edges, positions, source, lines, .. } = planar;
-        let held = Self {
+        let Planar { positions, source, lines, .. } = planar;
+        let mut held = Self {
+            typical_size: 0.0,
             fullness: fullness(&bonds, planar),
             sizes: positions.iter().map(|_| AtomicU64::new(0)).collect(),
             hints: source.iter().map(|&point| AtomicU32::new(bonds.hints[point as usize])).collect(),
@@ -104,7 +107,11 @@ impl Held {
             bonds,
         };
         (0..).zip(positions).for_each(|(v, &p)| held.arrive(v, p));
-        debug_assert!(half_edges.n_triangles() > 0);
+        let mut sizes: Vec<f64> = (0..positions.len() as u32).map(|v| held.size(v)).collect();
+        let middle = sizes.len() / 2;
+        if middle > 0 {
+            held.typical_size = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+        }
         held
     }
 

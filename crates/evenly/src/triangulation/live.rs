@@ -127,6 +127,11 @@ impl LiveMesh {
         self.spacing
     }
 
+    /// The spacing of most points.
+    pub fn typical_spacing(&self) -> f64 {
+        self.held.as_ref().map_or(self.spacing, |held| held.typical_size)
+    }
+
     /// Whether the wanted spacing varies.
     pub fn has_density(&self) -> bool {
         self.field.is_some() || self.held.is_some()

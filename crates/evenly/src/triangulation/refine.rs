@@ -20,7 +20,7 @@ use crate::space::snap;
 pub(crate) struct Refining<'a> {
     /// A triangle is thin whose circumradius is more than this many times its shortest side; 1.42 at least for the proof, less ends as well in practice.
     pub aspect: f64,
-    /// No segment is halved, and no triangle counts as thin, that is shorter than this.
+    /// No segment is halved to less than this. New vertices inside are no nearer to others than these are already, so that is enough to end it.
     pub floor: f64,
     /// Vertices are added up to so many in all.
     pub max_vertices: usize,
@@ -38,6 +38,8 @@ pub(crate) struct Refinement {
     pub positions: Vec<DVec2>,
     /// The segment of the input on which a half-edge of the border lies, or of a line in its direction, by its ends.
     pub segments: HashMap<[u32; 2], u32>,
+    /// Whether some of them lie inside.
+    has_lines: bool,
 }
 
 /// Where a walk ends.
@@ -55,7 +57,10 @@ const MAX_STEPS: usize = 10_000;
 impl Refinement {
     /// Refines a triangulation; `segments` tells for each half-edge of its border, and of lines, by its ends, on which segment of the input it lies.
     pub fn run(planar: Planar, segments: HashMap<[u32; 2], u32>, refining: Refining) -> Self {
-        let mut refinement = Self { half_edges: planar.half_edges, positions: planar.positions, segments };
+        let n_border = planar.half_edges.twin.iter().filter(|&&twin| twin == BORDER).count();
+        let has_lines = segments.len() > n_border;
+        let mut refinement = Self { half_edges: planar.half_edges, positions: planar.positions, segments, has_lines };
+        refinement.legalize((0..refinement.half_edges.origin.len() as u32).collect());
         let n_suspects = if refining.halves_all { refinement.half_edges.origin.len() as u32 } else { 0 };
         let mut encroached: Vec<u32> = (0..n_suspects).collect();
         let mut thin: VecDeque<u32> = VecDeque::new();
@@ -106,8 +111,9 @@ impl Refinement {
 
     /// Whether a half-edge lies on the border or a line.
     fn is_segment(&self, h: u32) -> bool {
-        let ends = [self.half_edges.origin[h as usize], self.half_edges.target(h)];
-        self.half_edges.is_border(h) || self.segments.contains_key(&ends) || self.segments.contains_key(&[ends[1], ends[0]])
+        let [from, to] = [self.half_edges.origin[h as usize], self.half_edges.target(h)];
+        let is_line = || self.segments.contains_key(&[from, to]) || self.segments.contains_key(&[to, from]);
+        self.half_edges.is_border(h) || self.has_lines && is_line()
     }
 
     fn is_in_diametral_circle(&self, h: u32, p: DVec2) -> bool {
@@ -127,7 +133,7 @@ impl Refinement {
         let centre = circumcentre(b - a, c - a);
         let is_large = refining.largest.is_some_and(|largest| centre.length() > largest((a + b + c) / 3.0));
         let is_thin = centre.length_squared() > refining.aspect * refining.aspect * shortest;
-        ((is_thin || is_large) && shortest > refining.floor * refining.floor).then_some(a + centre)
+        (is_thin || is_large).then_some(a + centre)
     }
 
     /// Adds `p`, looked for from triangle `t` on, or halves a segment instead. The new vertex; `None` where neither can be.
