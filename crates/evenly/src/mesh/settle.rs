@@ -17,11 +17,14 @@ use crate::triangulation::{Bonds, LiveMesh, Track, Triangulation};
 const EVEN_PASSES: usize = 60;
 const TOLERANCE: f64 = 0.3;
 /// Passes until points count as restless, at first and after each repair.
-const PASSES: usize = 200;
+const PASSES: usize = 600;
 const LATER_PASSES: usize = 60;
 /// After so many passes it is seen whether they have helped: whether no more than this part of the restless points is so still.
 const STRETCH: usize = 20;
 const HELPED: f64 = 0.75;
+/// Where fewer points than this are restless, or than this part of all, passes cost little.
+const FEW: f64 = 100.0;
+const FEW_SHARE: f64 = 0.02;
 /// Repairs, and how many of them may bring nothing.
 const MOST_ROUNDS: usize = 40;
 const MOST_IN_VAIN: usize = 10;
@@ -65,7 +68,7 @@ pub(super) fn settle(
         let Ok(mesh) = LiveMesh::bounded(domain, &points, bonds, spacing) else { break };
         report.triangulations += 1;
         let mut sweep = Sweep::new(mesh);
-        let mut rest = |rule, most| rest(&mut sweep, &rule, most, seed, run, report);
+        let mut rest = |rule, most| rest(&mut sweep, &rule, (points.len(), most), seed, run, report);
         let ending = if round == 0 {
             match rest(aim.rule(Some(TOLERANCE)), EVEN_PASSES) {
                 Ending::Cancelled => Ending::Cancelled,
@@ -93,14 +96,22 @@ pub(super) fn settle(
 }
 
 /// Sweeps as long as that brings points to rest, and so many passes at most.
-fn rest(sweep: &mut Sweep, rule: &PushPull, most: usize, seed: u64, run: &mut RunContext, report: &mut Report) -> Ending {
+fn rest(
+    sweep: &mut Sweep,
+    rule: &PushPull,
+    (n_points, most): (usize, usize),
+    seed: u64,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> Ending {
     let end = report.iterations + most;
+    let few = FEW_SHARE.max(FEW / n_points as f64);
     let mut restless = 1.0;
     loop {
         let plan = Plan { max_passes: end.min(report.iterations + STRETCH), ..Plan::of_passes(PASSES + MOST_ROUNDS * LATER_PASSES, seed) };
         let ending = sweep.run(rule, &plan, run, report);
         let left = report.stable_share.last().map_or(0.0, |share| 1.0 - share);
-        if ending != Ending::PassLimit || report.iterations >= end || left > HELPED * restless {
+        if ending != Ending::PassLimit || report.iterations >= end || left > few.max(HELPED * restless) {
             return ending;
         }
         restless = left;
