@@ -7,7 +7,7 @@
 //! the rule knows of none. The spacing is shorter where the border asks for it, and where points cannot come to rest some are added or removed.
 //!
 //! Cost: O(n log n); some 25 visits a point where the spacing is the same everywhere, more where it varies. It does not promise any angle, though refinement at the end leaves none
-//! below 25 degrees but at sharper corners, and where the domain is thinner than a sixty-fourth of the spacing.
+//! below 25 degrees but at sharper corners, and where the domain is thinner than a five-hundredth of the spacing.
 
 mod aim;
 mod background;
@@ -164,7 +164,7 @@ pub enum EdgeKind {
 }
 
 /// The smallest spacing that the domain's details are followed to, in wanted spacings.
-const FLOOR: f64 = 1.0 / 64.0;
+const FLOOR: f64 = 1.0 / 512.0;
 /// The shortest lengths, in distances between neighbouring f64.
 const RESOLVED: f64 = 1e3;
 /// The base of a cap is at most so many spacings long; caps are made smaller so often.
