@@ -194,18 +194,9 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     run.enter(Phase::Triangulate);
     let domain = polygon.domain();
     let spacing = params.spacing / domain.restore_length(1.0);
-    let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / domain.restore_length(1.0));
-    let grading = params.grading(
-        &domain,
-        Space::from(*polygon.frame()).resolution(),
-        wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)),
-    );
-
-    require_few(polygon.area() / (domain.restore_length(1.0).powi(2) * grading.largest.powi(2)))?;
 
     // 1. What the mesh must keep; sharp corners are set apart, and the spacing is found for every place.
-    let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
-    let (outline, caps, mut background) = graded(&whole, &domain, &grading)?;
+    let Graded { outline, caps, mut background, floor } = graded(polygon, params)?;
 
     // 2. Points on the border and on lines, and a spacing that fits them.
     let parts = border::divide(&outline, &mut background);
@@ -232,7 +223,7 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     let badness = settle::badness(&settled.triangulation, &aims.0);
 
     // 5. What is left is refined, and the corners come back.
-    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, params.min_angle_deg.unwrap_or(0.0), 0.5 * grading.floor);
+    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, params.min_angle_deg.unwrap_or(0.0), 0.5 * floor);
     report.n_points = mesh.vertices.len();
     report.outcome = match () {
         () if run.is_cancelled() => Outcome::Cancelled,
@@ -257,21 +248,33 @@ fn require_few(n_points: f64) -> Result<(), Error> {
 /// As [`mesh`].
 pub fn expected_triangles(polygon: &Polygon, params: &MeshParams) -> Result<f64, Error> {
     params.validate()?;
-    let domain = polygon.domain();
-    let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / domain.restore_length(1.0));
-    let grading = params.grading(
-        &domain,
-        Space::from(*polygon.frame()).resolution(),
-        wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync)),
-    );
-    require_few(polygon.area() / (domain.restore_length(1.0).powi(2) * grading.largest.powi(2)))?;
-    let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
-    let (_, caps, background) = graded(&whole, &domain, &grading)?;
+    let Graded { caps, background, .. } = graded(polygon, params)?;
     Ok(2.0 * total_mass(&background.sizing) + caps.len() as f64)
 }
 
+/// An outline without its sharp corners, these as caps, the spacing for every place, and the shortest that details are followed to.
+struct Graded {
+    outline: Outline,
+    caps: Vec<Cap>,
+    background: Background,
+    floor: f64,
+}
+
+/// Finds the outline and the spacing that the parameters ask for.
+fn graded(polygon: &Polygon, params: &MeshParams) -> Result<Graded, Error> {
+    let domain = polygon.domain();
+    let unit = domain.restore_length(1.0);
+    let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / unit);
+    let wanted = wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync));
+    let grading = params.grading(&domain, Space::from(*polygon.frame()).resolution(), wanted);
+    require_few(polygon.area() / (unit * grading.largest).powi(2))?;
+    let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
+    let (outline, caps, background) = capped(&whole, &domain, &grading)?;
+    Ok(Graded { outline, caps, background, floor: grading.floor })
+}
+
 /// The outline without its sharp corners, these as caps, and the spacing. Where it asks for more points at the base of a cap, the cap was too large.
-fn graded(whole: &Outline, domain: &Domain, grading: &Grading) -> Result<(Outline, Vec<Cap>, Background), Error> {
+fn capped(whole: &Outline, domain: &Domain, grading: &Grading) -> Result<(Outline, Vec<Cap>, Background), Error> {
     let planar = whole.triangulated(domain)?;
     let mut radii = vec![grading.on_border; whole.points.len()];
     let mut n_tries = 0;
