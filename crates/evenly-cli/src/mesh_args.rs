@@ -40,7 +40,7 @@ pub struct Mesh {
     /// The longest edges wanted, where they grow [default: no limit with --grade]
     #[arg(long, value_name = "H", allow_negative_numbers = true, requires = "grade", help_heading = "Size")]
     pub max_spacing: Option<f64>,
-    /// Wanted lengths of edges at points, as x y length a line; they grow away from there by --grade, or by 0.25
+    /// Wanted lengths of edges at points, as x y length a line, where they are to be shorter; they grow from there by --grade, or by 0.25
     #[arg(long, value_name = "FILE", help_heading = "Size")]
     pub sizes: Option<PathBuf>,
     #[command(flatten)]

@@ -6,7 +6,7 @@
 //! What differs, and why: points are moved by Push-Pull's rule, to one distance and one radius, which reaches a lower beta than Opt-beta's. At the border a star is seen once more as in a mirror, so
 //! the rule knows of none. The spacing is shorter where the border asks for it, and where points cannot come to rest some are added or removed.
 //!
-//! Cost: O(n log n); some 25 visits a point where the spacing is the same everywhere, more where it varies. It does not promise any angle, though refinement at the end leaves none
+//! Cost: O(n log n); 15 to 30 visits a point where the spacing is the same everywhere, a hundred and more where it varies much. It does not promise any angle, though refinement at the end leaves none
 //! below 25 degrees but at sharper corners, and where the domain is thinner than a five-hundredth of the spacing.
 
 mod aim;
@@ -41,18 +41,26 @@ use crate::polygon::Polygon;
 use crate::run::{Outcome, Phase, Report, RunContext};
 use crate::space::{Domain, Space};
 
+/// The smallest spacing that the domain's details are followed to, in wanted spacings.
+const FLOOR: f64 = 1.0 / 512.0;
+/// The shortest lengths, in distances between neighbouring f64.
+const RESOLVED: f64 = 1e3;
+/// The base of a cap is at most so many spacings long; caps are made smaller so often.
+const LONGEST_BASE: f64 = 1.3;
+const MOST_TRIES: usize = 8;
+
 /// What [`mesh`] can be told.
 #[derive(Clone, Serialize)]
 pub struct MeshParams<'a> {
     /// The wanted length of edges, in input units; positive. They are shorter where the border is detailed or the domain narrow.
     pub spacing: f64,
-    /// The largest spacing, in input units; `None` for `spacing`. More lets triangles grow away from the border.
+    /// The largest spacing inside, in input units; `None` for `spacing`, which edges on the border never exceed by much. More lets triangles grow away from it.
     pub largest: Option<f64>,
     /// By how much the spacing may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones.
     pub growth: f64,
     /// No triangle shall be obtuse. That takes longer, and is not always reached.
     pub is_non_obtuse: bool,
-    /// No angle shall be smaller, in degrees, but at the polygon's sharper corners; in (0, 35]. `None` for 25. More than 30 is not always reached.
+    /// No angle shall be smaller, in degrees, but at the polygon's sharper corners; in [0, 35]. `None` for 25. More than 30 is not always reached.
     pub min_angle_deg: Option<f64>,
     /// Points that stay and become vertices, in input units.
     pub fixed: Vec<[f64; 2]>,
@@ -63,13 +71,6 @@ pub struct MeshParams<'a> {
     pub wanted: Option<&'a (dyn Fn([f64; 2]) -> f64 + Sync)>,
     /// The points depend on it.
     pub seed: u64,
-}
-
-impl Mesh {
-    /// The angles of triangle `t` in degrees, each at its corner.
-    pub fn angles_deg(&self, t: usize) -> [f64; 3] {
-        quality::angles_deg(self.triangles[t].map(|v| self.vertices[v]))
-    }
 }
 
 impl MeshParams<'_> {
@@ -139,6 +140,13 @@ pub struct Mesh {
     pub edges: Vec<MeshEdge>,
 }
 
+impl Mesh {
+    /// The angles of triangle `t` in degrees, each at its corner.
+    pub fn angles_deg(&self, t: usize) -> [f64; 3] {
+        quality::angles_deg(self.triangles[t].map(|v| self.vertices[v]))
+    }
+}
+
 /// An edge that a mesh had to have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MeshEdge {
@@ -162,14 +170,6 @@ pub enum EdgeKind {
         line: usize,
     },
 }
-
-/// The smallest spacing that the domain's details are followed to, in wanted spacings.
-const FLOOR: f64 = 1.0 / 512.0;
-/// The shortest lengths, in distances between neighbouring f64.
-const RESOLVED: f64 = 1e3;
-/// The base of a cap is at most so many spacings long; caps are made smaller so often.
-const LONGEST_BASE: f64 = 1.3;
-const MOST_TRIES: usize = 8;
 
 /// Meshes a polygon.
 ///

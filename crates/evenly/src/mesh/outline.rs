@@ -9,8 +9,10 @@ use crate::polygon::{Polygon, meetings};
 use crate::space::{Domain, GRID};
 use crate::triangulation::{Crossing, Graph, Planar, planar};
 
-/// Points this near to the border, in the polygon's longer side, count as on it.
+/// Points this near to a segment or another point, in normalised units, count as on it.
 const ON_BORDER: f64 = 1e-9;
+/// The shortest spacing, in normalised units.
+pub(super) const LEAST: f64 = 1e3 * GRID;
 
 /// Points, and segments between them; of the border with the inside on their left.
 #[derive(Debug, Clone)]
@@ -21,6 +23,7 @@ pub(super) struct Outline {
     pub segments: Vec<Segment>,
 }
 
+/// From one point to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment {
     pub ends: [u32; 2],
@@ -75,7 +78,7 @@ impl Outline {
         }
     }
 
-    /// The number of a point, which is a new one unless it is there already. Where it lies on the border, the segment there becomes two.
+    /// The number of a point, which is a new one unless it is there already. Where it lies on a segment, that becomes two.
     fn add(&mut self, domain: &Domain, given: [f64; 2]) -> Result<u32, Error> {
         let at = domain.normalize(given) + 0.0;
         let back = domain.restore(at);
@@ -141,6 +144,3 @@ impl Outline {
 fn does_not_hold(at: [f64; 2]) -> Error {
     Error::InvalidPolygon { problem: "does not hold a fixed point or a line".into(), at }
 }
-
-/// The shortest segment that counts as one.
-pub(super) const LEAST: f64 = 1e3 * GRID;

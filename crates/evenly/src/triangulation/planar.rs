@@ -27,8 +27,6 @@ pub(crate) struct Planar {
     pub source: Vec<u32>,
     /// The edges inside that must stay, as pairs of vertices, the smaller first.
     pub lines: HashSet<[u32; 2]>,
-    /// Border segments that run through other points: the segment's index, and the points on the way.
-    pub passed: Vec<(usize, Vec<u32>)>,
 }
 
 /// Segments that cannot be there: each would cross another.
@@ -57,7 +55,6 @@ pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
     cdt.vertices().for_each(|vertex| handles[vertex.data().index as usize] = Some(vertex.fix()));
     let mut n_borders = vec![0u32; half_edges.origin.len()];
     let mut is_line = vec![false; half_edges.origin.len()];
-    let mut passed = Vec::new();
     for (number, &segment) in all().enumerate() {
         let [Some(from), Some(to)] = segment.map(|v| handles[v as usize]) else { return Err(Crossing(vec![segment])) };
         let pieces: Vec<_> = match cdt.get_edge_from_neighbors(from, to) {
@@ -70,9 +67,6 @@ pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
             return Err(Crossing(vec![segment]));
         }
         let is_border = number < graph.border.len();
-        if is_border && pieces.len() > 1 {
-            passed.push((number, pieces[1..].iter().map(|piece| piece.from().data().index).collect()));
-        }
         for piece in pieces {
             for h in [piece, piece.rev()].map(|edge| slot[edge.fix().index()]).into_iter().filter(|&h| h != BORDER) {
                 n_borders[h as usize] += u32::from(is_border);
@@ -103,7 +97,7 @@ pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
         lines.extend(inner.filter(|&ends| line_points.contains(&of_points(ends))));
     }
     let positions = source.iter().map(|&point| graph.points[point as usize]).collect();
-    Ok(Planar { half_edges, positions, source, lines, passed })
+    Ok(Planar { half_edges, positions, source, lines })
 }
 
 /// Numbers the vertices anew, so that each has triangles, all in one fan. Returns the point that each stands for.
