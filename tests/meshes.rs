@@ -6,7 +6,7 @@ mod shapes;
 
 use std::collections::HashMap;
 
-use evenly::{EdgeKind, Error, Mesh, MeshEdge, MeshParams, Outcome, Polygon, RunContext, mesh, mesh_cells, mesh_quality};
+use evenly::{CancelToken, EdgeKind, Error, Mesh, MeshEdge, MeshParams, Outcome, Polygon, RunContext, mesh, mesh_cells, mesh_quality};
 use proptest::prelude::*;
 use shapes::{Ring, circle, comb, holed_square, l_shape, moved, needle, nested, passage, rectangle, slit, spiral, star};
 
@@ -215,6 +215,17 @@ fn the_cells_of_all_vertices_cover_the_domain() {
         assert!((covered / polygon.area() - 1.0).abs() < 1e-9, "{covered} of {}", polygon.area());
         assert!(cells.iter().all(|cell| area(cell) > 0.0));
     }
+}
+
+#[test]
+fn an_interrupted_mesh_is_one_all_the_same() {
+    let polygon = polygon(star(9, 0.6));
+    let cancel = CancelToken::default();
+    cancel.cancel();
+    let mut context = RunContext::default().with_cancel(cancel);
+    let (mesh, report) = mesh(&polygon, &MeshParams::new(0.03), &mut context).unwrap();
+    assert_eq!((report.outcome, report.iterations), (Outcome::Cancelled, 0));
+    prove(&polygon, &mesh).unwrap();
 }
 
 #[test]

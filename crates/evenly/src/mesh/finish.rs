@@ -13,12 +13,16 @@ use crate::triangulation::{BORDER, Planar, Refinement, Refining, Triangulation};
 const REFINED_DEG: f64 = 25.5;
 const MOST_REFINED_DEG: f64 = 30.0;
 
-/// The mesh of settled points, refined where triangles are thin and segments not shorter than `floor`; and how many points that took.
-pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: &Domain, min_angle_deg: f64, floor: f64) -> (Mesh, usize) {
+/// The angle below which triangles are refined, where this one is wanted.
+pub(super) fn refined_deg(min_angle_deg: Option<f64>) -> f64 {
+    (min_angle_deg.unwrap_or(0.0) + 0.1).clamp(REFINED_DEG, MOST_REFINED_DEG)
+}
+
+/// The mesh of settled points, refined where angles are below `refined_deg` and segments not shorter than `floor`; and how many points that took.
+pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: &Domain, refined_deg: f64, floor: f64) -> (Mesh, usize) {
     let Settled { triangulation, mut corners, edges, .. } = settled;
     let Triangulation { half_edges, positions, .. } = triangulation;
     let n_settled = positions.len();
-    let refined_deg = (min_angle_deg + 0.1).clamp(REFINED_DEG, MOST_REFINED_DEG);
     let aspect = 0.5 / refined_deg.to_radians().sin();
     let planar = Planar { half_edges, positions, ..Planar::default() };
     let refining = Refining { longest: f64::INFINITY, aspect, floor, halves_all: false, max_vertices: 2 * n_settled + 1000, largest: None };

@@ -219,14 +219,19 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     let rails: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
     let place = Place { domain: &domain, outline: &outline, spacing };
     let mut settled = settle(state, place, aims, params.seed, run, &mut report)?;
-    polish::polish(&mut settled, &rails, &aims.0, params.seed);
+    // Whoever has interrupted wants the state reached, and soon.
+    let is_cancelled = run.is_cancelled();
+    if !is_cancelled {
+        polish::polish(&mut settled, &rails, &aims.0, params.seed);
+    }
     let badness = settle::badness(&settled.triangulation, &aims.0);
 
     // 5. What is left is refined, and the corners come back.
-    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, params.min_angle_deg.unwrap_or(0.0), 0.5 * floor);
+    let least_deg = if is_cancelled { 0.0 } else { finish::refined_deg(params.min_angle_deg) };
+    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, least_deg, 0.5 * floor);
     report.n_points = mesh.vertices.len();
     report.outcome = match () {
-        () if run.is_cancelled() => Outcome::Cancelled,
+        () if is_cancelled => Outcome::Cancelled,
         () if badness == 0.0 => Outcome::Converged,
         () => Outcome::IterationLimit,
     };
