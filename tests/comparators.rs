@@ -9,7 +9,7 @@ use evenly::{
     angle_bounds_deg, capacity, cvt, distmesh, farthest_point, lloyd, measure, opt_beta, poisson_disk_of, white,
 };
 
-use spaces::{rectangle, spaces, torus};
+use spaces::{nth, rectangle, torus};
 
 fn beta(points: &PointSet) -> f64 {
     measure(points).unwrap().beta
@@ -21,7 +21,7 @@ fn opt_beta_ends_lowest_then_cvt_then_distmesh_then_farthest_point() {
     let median = |method: fn(&mut PointSet)| {
         let mut betas: Vec<f64> = (1..=5)
             .map(|seed| {
-                let mut points = poisson_disk_of(spaces()[0], 2000, seed).unwrap();
+                let mut points = poisson_disk_of(nth(0), 2000, seed).unwrap();
                 method(&mut points);
                 beta(&points)
             })
@@ -56,7 +56,7 @@ fn opt_beta_ends_lowest_then_cvt_then_distmesh_then_farthest_point() {
 fn opt_beta_reaches_its_target_within_the_bounds_of_its_angles() {
     for seed in 1..=3 {
         for iterations in [1, 3, 200] {
-            let mut points = poisson_disk_of(spaces()[0], 4000, seed).unwrap();
+            let mut points = poisson_disk_of(nth(0), 4000, seed).unwrap();
             let params = OptBetaParams { iterations, ..OptBetaParams::default() };
             let report = opt_beta(&mut points, &params, &mut RunContext::default()).unwrap();
             let m = measure(&points).unwrap();
@@ -74,8 +74,8 @@ fn opt_beta_reaches_its_target_within_the_bounds_of_its_angles() {
 
 #[test]
 fn no_move_of_lloyds_method_raises_the_energy() {
-    for space in [spaces()[0], spaces()[1], spaces()[3]] {
-        let mut points = white(space, 500, 3).unwrap();
+    for space in [nth(0), nth(1), nth(3)] {
+        let mut points = white(&space, 500, 3).unwrap();
         let mut energy = measure(&points).unwrap().cvt_energy;
         for seed in 0..15 {
             lloyd(&mut points, &LloydParams { iterations: 1, tolerance: 0.0, seed }, &mut RunContext::default()).unwrap();
@@ -92,7 +92,7 @@ fn a_hundred_quasi_newton_iterations_are_worth_a_thousand_of_lloyds() {
     for space in [torus([0.0, 0.0], [1.0, 1.0]), rectangle([0.0, 0.0], [2.0, 1.0])] {
         let (mut of_lloyd, mut of_cvt) = (0.0, 0.0);
         for seed in 0..6 {
-            let start = white(space, 1000, seed).unwrap();
+            let start = white(&space, 1000, seed).unwrap();
             let (mut slow, mut fast) = (start.clone(), start);
             lloyd(&mut slow, &LloydParams { iterations: 1000, tolerance: 0.0, seed }, &mut RunContext::default()).unwrap();
             let report = cvt(&mut fast, &CvtParams::default(), &mut RunContext::default()).unwrap();
@@ -109,9 +109,9 @@ fn a_hundred_quasi_newton_iterations_are_worth_a_thousand_of_lloyds() {
 
 #[test]
 fn the_smallest_distance_never_falls_and_is_as_large_as_wanted() {
-    for space in [spaces()[0], spaces()[3], torus([0.0, 0.0], [30.0, 1.0])] {
+    for space in [nth(0), nth(3), torus([0.0, 0.0], [30.0, 1.0])] {
         for is_local in [false, true] {
-            let mut points = white(space, 600, 2).unwrap();
+            let mut points = white(&space, 600, 2).unwrap();
             let mut distance = 0.0;
             for _ in 0..8 {
                 let params = FarthestPointParams { min_distance: None, is_local, iterations: 1, ..FarthestPointParams::default() };
@@ -122,7 +122,7 @@ fn the_smallest_distance_never_falls_and_is_as_large_as_wanted() {
             }
         }
     }
-    let mut points = white(spaces()[0], 2000, 5).unwrap();
+    let mut points = white(nth(0), 2000, 5).unwrap();
     let params = FarthestPointParams { min_distance: Some(0.925), ..FarthestPointParams::default() };
     let report = farthest_point(&mut points, &params, &mut RunContext::default()).unwrap();
     let m = measure(&points).unwrap();
@@ -132,12 +132,12 @@ fn the_smallest_distance_never_falls_and_is_as_large_as_wanted() {
 
 #[test]
 fn what_is_asked_for_is_done_and_no_more() {
-    let mut points = white(spaces()[0], 300, 1).unwrap();
+    let mut points = white(nth(0), 300, 1).unwrap();
     let report = lloyd(&mut points, &LloydParams { iterations: 7, tolerance: 0.0, seed: 0 }, &mut RunContext::default()).unwrap();
     assert_eq!((report.outcome, report.iterations), (Outcome::IterationsDone, 7));
     let report = lloyd(&mut points, &LloydParams { tolerance: 0.5, ..LloydParams::default() }, &mut RunContext::default()).unwrap();
     assert_eq!((report.outcome, report.iterations), (Outcome::Converged, 1));
-    let mut points = white(spaces()[3], 300, 1).unwrap();
+    let mut points = white(nth(3), 300, 1).unwrap();
     let report = capacity(&mut points, &CapacityParams::default(), &mut RunContext::default()).unwrap();
     assert_eq!(report.outcome, Outcome::Converged);
     assert!(measure(&points).unwrap().capacity_max_deviation <= 0.0386 + 1e-6);
@@ -145,7 +145,7 @@ fn what_is_asked_for_is_done_and_no_more() {
 
 #[test]
 fn bad_parameters_are_refused() {
-    let mut points = white(spaces()[0], 9, 1).unwrap();
+    let mut points = white(nth(0), 9, 1).unwrap();
     let before = points.clone();
     let mut run = RunContext::default();
     let beta = OptBetaParams::default();

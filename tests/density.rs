@@ -36,7 +36,7 @@ fn five(width: usize) -> [(&'static str, Density); 5] {
     ]
 }
 
-fn start(space: Space, density: &Density, n_points: usize, seed: u64) -> PointSet {
+fn start(space: &Space, density: &Density, n_points: usize, seed: u64) -> PointSet {
     let mut points = white_by_density(space, density, n_points, seed).unwrap();
     warp_isotropic(&mut points);
     points
@@ -45,7 +45,7 @@ fn start(space: Space, density: &Density, n_points: usize, seed: u64) -> PointSe
 #[test]
 fn push_pull_converges_on_all_five_densities_and_points_follow_them() {
     for (name, density) in five(232) {
-        let mut points = start(torus(), &density, 2500, 11);
+        let mut points = start(&torus(), &density, 2500, 11);
         let report = push_pull(&mut points, &PushPullParams::default(), &mut RunContext::default()).unwrap();
         assert_eq!(report.outcome, Outcome::Converged, "{name}");
         let measures = measure(&points).unwrap();
@@ -57,7 +57,7 @@ fn push_pull_converges_on_all_five_densities_and_points_follow_them() {
 #[test]
 fn push_pull_converges_in_a_rectangle_too() {
     for (name, density) in &five(232)[..4] {
-        let mut points = start(rectangle(), density, 2500, 5);
+        let mut points = start(&rectangle(), density, 2500, 5);
         let report = push_pull(&mut points, &PushPullParams::default(), &mut RunContext::default()).unwrap();
         assert_eq!(report.outcome, Outcome::Converged, "{name}");
         assert!(measure(&points).unwrap().density_error.unwrap() < 0.05, "{name}");
@@ -113,7 +113,7 @@ fn every_method_follows_a_density_with_empty_parts_and_puts_nothing_there() {
     let middle = |p: &[f64; 2]| is_empty(p.map(|x| ((x * 100.0).floor() + 0.5) / 100.0));
     for space in [torus(), rectangle()] {
         for method in METHODS {
-            let mut points = start(space, &density, 1500, 3);
+            let mut points = start(&space, &density, 1500, 3);
             assert!(!points.positions().iter().any(middle));
             let measures = run(method, &mut points);
             assert!(!points.positions().iter().any(middle), "{}", method.0);
@@ -126,7 +126,7 @@ fn every_method_follows_a_density_with_empty_parts_and_puts_nothing_there() {
 fn a_constant_picture_is_as_good_as_none() {
     let constant = Density::image(37, 23, &[0.25; 37 * 23]).unwrap();
     for space in [torus(), rectangle()] {
-        let mut with = start(space, &constant, 600, 2);
+        let mut with = start(&space, &constant, 600, 2);
         let without = with.clone().with_density(&Density::uniform());
         let (a, b) = (measure(&with).unwrap(), measure(&without).unwrap());
         for (x, y) in [
@@ -150,7 +150,7 @@ fn threads_do_not_change_a_bit() {
     let made = |method: Method, n_threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
         pool.install(|| {
-            let mut points = start(torus(), &density, 3000, 1);
+            let mut points = start(&torus(), &density, 3000, 1);
             run(method, &mut points);
             points
         })
@@ -183,14 +183,14 @@ fn odd_domains_pictures_and_numbers_of_points_break_nothing() {
             for n in [1, 3, 40] {
                 for method in METHODS {
                     // Where rounding leaves no room, that is said.
-                    let Ok(mut points) = white_by_density(space, density, n, 1) else { continue };
+                    let Ok(mut points) = white_by_density(&space, density, n, 1) else { continue };
                     warp(&mut points);
                     if method.1(&mut points, &mut RunContext::default()).is_ok() {
-                        let is_inside = |p: &[f64; 2]| PointSet::new(space, vec![*p]).is_ok() && p.iter().all(|x| x.is_finite());
+                        let is_inside = |p: &[f64; 2]| PointSet::new(&space, vec![*p]).is_ok() && p.iter().all(|x| x.is_finite());
                         assert!(points.n_points() == n && points.positions().iter().all(is_inside), "{} {space}", method.0);
                     }
                 }
-                if let Ok(points) = poisson_disk_of_density(space, density, n, 1) {
+                if let Ok(points) = poisson_disk_of_density(&space, density, n, 1) {
                     assert_eq!(points.n_points(), n);
                     assert_eq!(eliminate(&points, n.div_ceil(2)).unwrap().n_points(), n.div_ceil(2));
                 }
@@ -208,8 +208,8 @@ fn sparse_pictures_and_half_empty_ones_leave_distinct_points_where_there_is_dens
         for space in [torus(), rectangle()] {
             for method in METHODS {
                 // Points that follow it, and points that do not.
-                let even = white_by_density(space, &Density::uniform(), 300, 4).unwrap().with_density(density);
-                for mut points in [start(space, density, 300, 4), even] {
+                let even = white_by_density(&space, &Density::uniform(), 300, 4).unwrap().with_density(density);
+                for mut points in [start(&space, density, 300, 4), even] {
                     if method.1(&mut points, &mut RunContext::default()).is_err() {
                         continue;
                     }
@@ -227,7 +227,7 @@ fn sparse_pictures_and_half_empty_ones_leave_distinct_points_where_there_is_dens
 
 #[test]
 fn methods_without_a_density_say_so() {
-    let mut points = start(torus(), &function(50, waves(0.5)), 100, 1);
+    let mut points = start(&torus(), &function(50, waves(0.5)), 100, 1);
     let before = points.clone();
     let run = &mut RunContext::default();
     assert!(opt_beta(&mut points, &evenly::OptBetaParams::default(), run).is_err());

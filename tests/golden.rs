@@ -19,7 +19,7 @@ fn rectangle(width: f64) -> Space {
 
 /// Optimises white noise, warped or not.
 fn run(space: Space, n: usize, seed: u64, mode: Mode, is_warped: bool) -> (Measures, Report) {
-    let mut points = white(space, n, seed).unwrap();
+    let mut points = white(&space, n, seed).unwrap();
     if is_warped {
         warp(&mut points);
     }
@@ -93,7 +93,7 @@ fn rectangles_are_covered_to_the_border() {
 
 /// Push-pull on white noise, warped or not, in any case converged: the measures are those of a fresh triangulation.
 fn pushed(space: Space, n: usize, seed: u64, params: &PushPullParams, is_warped: bool) -> (Measures, Report) {
-    let mut points = white(space, n, seed).unwrap();
+    let mut points = white(&space, n, seed).unwrap();
     if is_warped {
         warp_isotropic(&mut points);
     }
@@ -165,7 +165,7 @@ fn targets_may_be_left_out_and_moves_summed() {
             PushPullParams { coverage_radius: None, ..all },
             PushPullParams { capacity_tolerance: None, ..all },
         ] {
-            pushed(space, 1000, 4, &params, true);
+            pushed(space.clone(), 1000, 4, &params, true);
         }
     }
     let (_, in_turn) = pushed(torus(), 2500, 4, &all, true);

@@ -12,7 +12,7 @@ use evenly::{
 };
 use proptest::prelude::*;
 
-use spaces::{n_distinct, rectangle, spaces, torus};
+use spaces::{n_distinct, nth, rectangle, spaces, torus};
 
 /// A method, with all its parameters.
 #[derive(Clone, Copy, Debug)]
@@ -115,7 +115,7 @@ fn every_method_is_sound_in_every_space_for_every_number() {
     for method in Method::all() {
         for space in spaces() {
             for n in (1..=24).chain([50, 333, 1000]) {
-                let mut points = white(space, n, n as u64).unwrap();
+                let mut points = white(&space, n, n as u64).unwrap();
                 let report = method.run(&mut points);
                 let case = format!("{method:?}, {space}, {n}");
                 assert_sound(&points, n, &report, &case);
@@ -141,7 +141,7 @@ fn the_energy_never_ends_higher_and_never_rises_in_plain_steps() {
     for method in Method::all() {
         let Method::Procrustes(params) = method else { continue };
         for space in spaces() {
-            let mut points = white(space, 700, 3).unwrap();
+            let mut points = white(&space, 700, 3).unwrap();
             let report = method.run(&mut points);
             let case = format!("{method:?}, {space}");
             if space.is_periodic() {
@@ -158,7 +158,7 @@ fn the_energy_never_ends_higher_and_never_rises_in_plain_steps() {
 fn fewer_than_three_points_come_back_as_they_are() {
     for method in Method::all() {
         for n in [1, 2] {
-            let mut points = white(spaces()[1], n, 5).unwrap();
+            let mut points = white(nth(1), n, 5).unwrap();
             let before = points.clone();
             let report = method.run(&mut points);
             assert_eq!(points, before);
@@ -171,11 +171,11 @@ fn fewer_than_three_points_come_back_as_they_are() {
 #[test]
 fn the_number_of_threads_changes_no_bit() {
     for method in Method::all() {
-        for space in [spaces()[0], spaces()[4]] {
+        for space in [nth(0), nth(4)] {
             let run = |n_threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
                 pool.install(|| {
-                    let mut points = white(space, 40_000, 11).unwrap();
+                    let mut points = white(&space, 40_000, 11).unwrap();
                     warp(&mut points);
                     let report = method.run(&mut points);
                     let measures = measure(&points).unwrap();
@@ -193,11 +193,11 @@ fn the_number_of_threads_changes_no_bit() {
 #[test]
 fn the_order_of_the_input_does_not_matter() {
     for method in Method::all() {
-        for space in [spaces()[0], spaces()[3]] {
-            let start = white(space, 500, 2).unwrap();
+        for space in [nth(0), nth(3)] {
+            let start = white(&space, 500, 2).unwrap();
             let shuffled: Vec<[f64; 2]> = (0..500).map(|i| start.positions()[i * 77 % 500]).collect();
             let run = |positions: Vec<[f64; 2]>| {
-                let mut points = PointSet::new(space, positions).unwrap();
+                let mut points = PointSet::new(&space, positions).unwrap();
                 warp(&mut points);
                 method.run(&mut points);
                 points
@@ -284,13 +284,13 @@ fn hard_sets() -> Vec<(&'static str, Vec<[f64; 2]>)> {
 #[test]
 fn hard_sets_are_spread() {
     for method in Method::all() {
-        for space in [spaces()[0], spaces()[1], spaces()[3], spaces()[4]] {
+        for space in [nth(0), nth(1), nth(3), nth(4)] {
             for (name, fractions) in hard_sets() {
                 for is_warped in [false, true] {
                     let n = fractions.len();
                     let (origin, size) = (space.origin(), space.size());
                     let place = |p: &[f64; 2]| [origin[0] + size[0] * p[0], origin[1] + size[1] * p[1]];
-                    let mut points = PointSet::new(space, fractions.iter().map(place).collect()).unwrap();
+                    let mut points = PointSet::new(&space, fractions.iter().map(place).collect()).unwrap();
                     if is_warped {
                         warp(&mut points);
                     }
@@ -309,19 +309,19 @@ fn hard_sets_are_spread() {
 #[test]
 fn what_was_separated_is_told() {
     let run = |positions: Vec<[f64; 2]>, space: Space| {
-        let mut points = PointSet::new(space, positions).unwrap();
+        let mut points = PointSet::new(&space, positions).unwrap();
         procrustes(&mut points, &ProcrustesParams::default(), &mut RunContext::default()).unwrap()
     };
-    let doubled = run(vec![[0.1, 0.1], [0.6, 0.2], [0.1, 0.1], [0.3, 0.9], [0.1, 0.1]], spaces()[0]);
+    let doubled = run(vec![[0.1, 0.1], [0.6, 0.2], [0.1, 0.1], [0.3, 0.9], [0.1, 0.1]], nth(0));
     assert_eq!((doubled.coincident_points, doubled.was_collinear), (2, false));
-    let lined = run((0..9).map(|i| [0.1 * f64::from(i), 0.5]).collect(), spaces()[3]);
+    let lined = run((0..9).map(|i| [0.1 * f64::from(i), 0.5]).collect(), nth(3));
     assert_eq!((lined.coincident_points, lined.was_collinear), (0, true));
 }
 
 #[test]
 fn a_cancelled_run_keeps_its_best_state() {
     for method in Method::all() {
-        let mut points = white(spaces()[0], 2000, 8).unwrap();
+        let mut points = white(nth(0), 2000, 8).unwrap();
         let before = measure(&points).unwrap();
         let cancel = CancelToken::default();
         let handle = cancel.clone();
@@ -354,7 +354,7 @@ fn bad_parameters_are_refused_and_leave_the_points_alone() {
         ProcrustesParams { tolerance: f64::INFINITY, ..good },
         ProcrustesParams { max_iterations: 0, ..good },
     ] {
-        let mut points = white(spaces()[0], 100, 0).unwrap();
+        let mut points = white(nth(0), 100, 0).unwrap();
         let before = points.clone();
         assert!(procrustes(&mut points, &params, &mut RunContext::default()).is_err());
         assert_eq!(points, before);
@@ -378,13 +378,13 @@ fn bad_parameters_are_refused_and_leave_the_points_alone() {
         // The three points of a triangle with sides of 1 leave a hole of 0.5774.
         PushPullParams { min_distance: Some(1.0), coverage_radius: Some(0.577), ..good },
     ] {
-        let mut points = white(spaces()[0], 100, 0).unwrap();
+        let mut points = white(nth(0), 100, 0).unwrap();
         let before = points.clone();
         assert!(push_pull(&mut points, &params, &mut RunContext::default()).is_err(), "{params:?}");
         assert_eq!(points, before);
     }
     for beta in [0.0, 0.577, 2.1, -1.0, f64::NAN, f64::INFINITY] {
-        let mut points = white(spaces()[0], 100, 0).unwrap();
+        let mut points = white(nth(0), 100, 0).unwrap();
         let params = WellSpacedParams { beta, ..WellSpacedParams::default() };
         assert!(well_spaced(&mut points, &params, &mut RunContext::default()).is_err(), "{beta}");
     }
@@ -394,8 +394,8 @@ fn bad_parameters_are_refused_and_leave_the_points_alone() {
     assert!(Torus::new([1e9, 0.0], [1e-9, 1e-9]).is_err());
     assert!(Torus::new([f64::NAN, 0.0], [1.0, 1.0]).is_err());
     assert!(white(torus([1e12, 0.0], [1.0, 1.0]), 1_000_000, 0).is_err());
-    assert!(white(spaces()[0], 0, 0).is_err());
-    let outside = PointSet::new(spaces()[3], vec![[0.5, 0.5], [1.5, 0.0]]).unwrap_err();
+    assert!(white(nth(0), 0, 0).is_err());
+    let outside = PointSet::new(nth(3), vec![[0.5, 0.5], [1.5, 0.0]]).unwrap_err();
     assert!(outside.to_string().starts_with("point 1 is (1.5, 0), outside"));
 }
 
@@ -403,7 +403,7 @@ fn bad_parameters_are_refused_and_leave_the_points_alone() {
 fn starts_have_exactly_n_distinct_points_inside() {
     for space in spaces() {
         for n in [1, 2, 3, 7, 12, 100, 997] {
-            for points in [white(space, n, 1), jittered(space, n, 1), hexagonal(space, n)] {
+            for points in [white(&space, n, 1), jittered(&space, n, 1), hexagonal(&space, n)] {
                 let mut points = points.unwrap();
                 for _ in 0..2 {
                     assert_eq!((points.n_points(), n_distinct(&points)), (n, n), "{space}, {n}");
@@ -417,7 +417,7 @@ fn starts_have_exactly_n_distinct_points_inside() {
 
 #[test]
 fn seeds_differ_and_repeat() {
-    let make = |seed| white(spaces()[0], 100, seed).unwrap();
+    let make = |seed| white(nth(0), 100, seed).unwrap();
     assert_eq!(make(3), make(3));
     assert_ne!(make(3), make(4));
 }
@@ -454,7 +454,7 @@ fn voronoi_cells_fill_the_domain_and_triangles_too() {
     };
     for space in spaces() {
         for n in [3, 8, 60, 2000] {
-            let mut points = white(space, n, 6).unwrap();
+            let mut points = white(&space, n, 6).unwrap();
             for _ in 0..2 {
                 let tessellation = tessellate(&points).unwrap();
                 let cells: f64 = tessellation.cells.iter().map(|cell| area(cell)).sum();
@@ -469,16 +469,16 @@ fn voronoi_cells_fill_the_domain_and_triangles_too() {
 
 #[test]
 fn a_point_that_is_there_twice_is_counted_and_has_distance_zero() {
-    let mut positions = white(spaces()[0], 100, 1).unwrap().positions().to_vec();
-    let plain = measure(&PointSet::new(spaces()[0], positions.clone()).unwrap()).unwrap();
+    let mut positions = white(nth(0), 100, 1).unwrap().positions().to_vec();
+    let plain = measure(&PointSet::new(nth(0), positions.clone()).unwrap()).unwrap();
     positions.push(positions[17]);
-    let m = measure(&PointSet::new(spaces()[0], positions).unwrap()).unwrap();
+    let m = measure(&PointSet::new(nth(0), positions).unwrap()).unwrap();
     assert_eq!((m.n_points, m.coincident_points, m.min_distance), (101, 1, 0.0));
     assert_eq!(m.angle_rms_deg, plain.angle_rms_deg);
     assert!(m.mean_distance < plain.mean_distance);
     // Three alone at .02, two together.
     let few = vec![[0.1, 0.1], [0.1, 0.1], [0.6, 0.6], [0.62, 0.6], [0.6, 0.62]];
-    let m = measure(&PointSet::new(spaces()[0], few).unwrap()).unwrap();
+    let m = measure(&PointSet::new(nth(0), few).unwrap()).unwrap();
     assert!((m.mean_distance * m.hex_spacing - 0.012).abs() < 1e-12);
 }
 
@@ -498,7 +498,7 @@ proptest! {
             max_passes: Some(60), seed,
         };
         let method = if which < 4 { Method::Procrustes(ProcrustesParams { side, mode, ..ProcrustesParams::default() }) } else { Method::PushPull(push) };
-        let mut points = white(space, n, seed).unwrap();
+        let mut points = white(&space, n, seed).unwrap();
         let report = method.run(&mut points);
         prop_assert_eq!(report.inverted_triangles, 0);
         prop_assert_eq!(n_distinct(&points), n);

@@ -24,6 +24,11 @@ pub fn spaces() -> Vec<Space> {
     ]
 }
 
+/// One of them.
+pub fn nth(k: usize) -> Space {
+    spaces().swap_remove(k)
+}
+
 pub fn n_distinct(points: &PointSet) -> usize {
     let mut bits: Vec<[u64; 2]> = points.positions().iter().map(|p| p.map(f64::to_bits)).collect();
     bits.sort_unstable();

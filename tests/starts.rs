@@ -9,7 +9,7 @@ use evenly::{
 };
 use proptest::prelude::*;
 
-use spaces::{rectangle, spaces, torus};
+use spaces::{nth, rectangle, spaces, torus};
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
@@ -25,7 +25,7 @@ proptest! {
         for factor in [1.0, looseness] {
             let params = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, n) };
             let params = PoissonDiskParams { coverage: Some(factor * params.spacing), ..params };
-            let points = poisson_disk(space, &params).unwrap();
+            let points = poisson_disk(&space, &params).unwrap();
             if let Ok(m) = measure(&points) {
                 let (distance, radius) = (m.min_distance * m.hex_spacing, m.coverage_radius * m.hex_spacing);
                 // The domain's own sides are known to 2^-48 of the longer one.
@@ -42,7 +42,7 @@ proptest! {
 fn large_maximal_sets_are_maximal() {
     for space in [torus([0.0, 0.0], [1.0, 1.0]), rectangle([0.0, 0.0], [3.0, 1.0]), torus([0.0, 0.0], [100.0, 1.0])] {
         let params = PoissonDiskParams { seed: 3, ..PoissonDiskParams::for_about(&space, 50_000) };
-        let points = poisson_disk(space, &params).unwrap();
+        let points = poisson_disk(&space, &params).unwrap();
         let m = measure(&points).unwrap();
         assert!(m.min_distance * m.hex_spacing >= params.spacing && m.coverage_radius * m.hex_spacing <= params.spacing, "{space}");
         assert!(m.beta > 0.999 && m.beta <= 1.0);
@@ -58,7 +58,7 @@ fn large_maximal_sets_are_maximal() {
 fn rounding_brings_no_points_together() {
     for space in [torus([1e9, 0.0], [1.0, 1.0]), rectangle([-3.0, 1e12], [2000.0, 500.0])] {
         let params = PoissonDiskParams { seed: 1, ..PoissonDiskParams::for_about(&space, 3000) };
-        let points = poisson_disk(space, &params).unwrap();
+        let points = poisson_disk(&space, &params).unwrap();
         let m = measure(&points).unwrap();
         assert!(m.min_distance * m.hex_spacing >= params.spacing * (1.0 - 1e-14), "{space}");
         // Gaps may be missed that are as small as what rounding moves points by.
@@ -70,7 +70,7 @@ fn rounding_brings_no_points_together() {
 #[test]
 fn two_radii_are_both_used_up() {
     for (looseness, least) in [(1.2, 0.98), (1.5, 0.96), (2.0, 0.93)] {
-        let space = spaces()[0];
+        let space = nth(0);
         let params = PoissonDiskParams { seed: 5, ..PoissonDiskParams::for_about(&space, 20_000) };
         let params = PoissonDiskParams { coverage: Some(looseness * params.spacing), ..params };
         let beta = measure(&poisson_disk(space, &params).unwrap()).unwrap().beta;
@@ -83,9 +83,9 @@ fn two_radii_are_both_used_up() {
 fn exact_numbers_are_exact_in_every_space() {
     for space in spaces() {
         for n in (1..=12).chain([100, 1000]) {
-            let thrown = dart(space, &DartParams { n_points: Some(n), seed: n as u64, ..DartParams::default() }).unwrap();
-            let left = eliminate(&white(space, 5 * n, n as u64).unwrap(), n).unwrap();
-            let full = poisson_disk_of(space, n, n as u64).unwrap();
+            let thrown = dart(&space, &DartParams { n_points: Some(n), seed: n as u64, ..DartParams::default() }).unwrap();
+            let left = eliminate(&white(&space, 5 * n, n as u64).unwrap(), n).unwrap();
+            let full = poisson_disk_of(&space, n, n as u64).unwrap();
             assert!([thrown, left, full].iter().all(|points| points.n_points() == n), "{space}, {n}");
         }
     }
@@ -94,11 +94,11 @@ fn exact_numbers_are_exact_in_every_space() {
 /// The paper's weights reach 0.69 hexagonal spacings from five candidates a point.
 #[test]
 fn elimination_keeps_points_apart_and_in_progressive_order() {
-    let candidates = white(spaces()[0], 20_000, 3).unwrap();
+    let candidates = white(nth(0), 20_000, 3).unwrap();
     let points = eliminate(&candidates, 4000).unwrap();
     assert!(points.positions().iter().all(|p| candidates.positions().contains(p)));
     for (part, distance) in [(1, 0.68), (2, 0.6), (4, 0.6), (10, 0.57)] {
-        let first = PointSet::new(spaces()[0], points.positions()[..4000 / part].to_vec()).unwrap();
+        let first = PointSet::new(nth(0), points.positions()[..4000 / part].to_vec()).unwrap();
         assert!(measure(&first).unwrap().min_distance > distance, "{part}");
     }
 }
@@ -110,9 +110,9 @@ fn long_domains_are_filled_from_end_to_end() {
         let space = make([0.0, 0.0], [1000.0, 1.0]);
         for n in [20, 100] {
             let sets = [
-                eliminate(&white(space, 5 * n, 1).unwrap(), n).unwrap(),
-                poisson_disk_of(space, n, 1).unwrap(),
-                dart(space, &DartParams { n_points: Some(n), ..DartParams::default() }).unwrap(),
+                eliminate(&white(&space, 5 * n, 1).unwrap(), n).unwrap(),
+                poisson_disk_of(&space, n, 1).unwrap(),
+                dart(&space, &DartParams { n_points: Some(n), ..DartParams::default() }).unwrap(),
             ];
             for (index, points) in sets.iter().enumerate() {
                 let mut along: Vec<f64> = points.positions().iter().map(|p| p[0]).chain([0.0, 1000.0]).collect();
@@ -126,15 +126,15 @@ fn long_domains_are_filled_from_end_to_end() {
 
 #[test]
 fn darts_fall_until_it_is_full() {
-    let space = spaces()[3];
+    let space = nth(3);
     let spacing = 0.03;
-    let full = dart(space, &DartParams { spacing: Some(spacing), ..DartParams::default() }).unwrap();
+    let full = dart(&space, &DartParams { spacing: Some(spacing), ..DartParams::default() }).unwrap();
     let m = measure(&full).unwrap();
     assert!(m.min_distance * m.hex_spacing >= spacing && m.coverage_radius * m.hex_spacing < 1.5 * spacing, "{m:?}");
-    let few = dart(space, &DartParams { spacing: Some(spacing), n_points: Some(50), ..DartParams::default() }).unwrap();
+    let few = dart(&space, &DartParams { spacing: Some(spacing), n_points: Some(50), ..DartParams::default() }).unwrap();
     assert_eq!(few.positions(), &full.positions()[..50]);
     // A spacing that shrinks leaves an order in which the first are spread too.
-    let points = dart(space, &DartParams { n_points: Some(1000), ..DartParams::default() }).unwrap();
+    let points = dart(&space, &DartParams { n_points: Some(1000), ..DartParams::default() }).unwrap();
     let first = PointSet::new(space, points.positions()[..100].to_vec()).unwrap();
     assert!(measure(&points).unwrap().min_distance > 0.6 && measure(&first).unwrap().min_distance > 0.6);
 }

@@ -9,7 +9,7 @@ use evenly::{
     push_pull, warp, well_spaced, white,
 };
 
-use spaces::{n_distinct, rectangle, spaces, torus};
+use spaces::{n_distinct, nth, rectangle, torus};
 
 /// Found by random runs: a visit that is put off halfway has moved some points, even if it then finds nothing to do.
 #[test]
@@ -43,9 +43,9 @@ fn what_counts_as_converged_is_reached() {
     let far = |n| white(torus([1e12, 0.0], [1.0, 1.0]), n, 0).unwrap();
     for (start, params) in [
         (hexagonal, PushPullParams { min_distance: None, coverage_radius: Some(0.577), capacity_tolerance: Some(0.001), ..good }),
-        (white(spaces()[0], 300, 0).unwrap(), PushPullParams { relaxation: 0.02, max_passes: Some(3000), ..good }),
-        (white(spaces()[3], 300, 0).unwrap(), PushPullParams { relaxation: 0.003, max_passes: Some(300), ..good }),
-        (white(spaces()[0], 300, 0).unwrap(), PushPullParams { capacity_tolerance: Some(1e-7), max_passes: Some(300), ..good }),
+        (white(nth(0), 300, 0).unwrap(), PushPullParams { relaxation: 0.02, max_passes: Some(3000), ..good }),
+        (white(nth(3), 300, 0).unwrap(), PushPullParams { relaxation: 0.003, max_passes: Some(300), ..good }),
+        (white(nth(0), 300, 0).unwrap(), PushPullParams { capacity_tolerance: Some(1e-7), max_passes: Some(300), ..good }),
         (far(100), good),
     ] {
         let mut points = start;
@@ -70,7 +70,7 @@ fn points_that_end_in_one_place_are_moved_apart() {
 fn targets_out_of_reach_are_warned_of_and_told() {
     let params =
         PushPullParams { min_distance: Some(0.97), coverage_radius: Some(0.60), max_passes: Some(50), ..PushPullParams::default() };
-    let mut points = white(spaces()[0], 500, 0).unwrap();
+    let mut points = white(nth(0), 500, 0).unwrap();
     let report = push_pull(&mut points, &params, &mut RunContext::default()).unwrap();
     assert_eq!((report.outcome, report.iterations), (Outcome::IterationLimit, 50));
     assert!(report.notes[0].contains("the nearest that are: min distance 0.91 with coverage radius 0.62"), "{:?}", report.notes);
@@ -85,7 +85,7 @@ fn targets_out_of_reach_are_warned_of_and_told() {
 fn what_cannot_be_reached_is_approached() {
     let start = hexagonal(torus([0.0, 0.0], [1.0, 3f64.sqrt() / 2.0]), 30 * 30).unwrap();
     let params = PushPullParams { min_distance: Some(1.0), coverage_radius: None, ..PushPullParams::default() };
-    for (mut points, least) in [(start, 0.999), (white(spaces()[0], 900, 1).unwrap(), 0.9)] {
+    for (mut points, least) in [(start, 0.999), (white(nth(0), 900, 1).unwrap(), 0.9)] {
         push_pull(&mut points, &PushPullParams { max_passes: Some(800), ..params }, &mut RunContext::default()).unwrap();
         assert!(measure(&points).unwrap().min_distance >= least);
     }
@@ -95,7 +95,7 @@ fn what_cannot_be_reached_is_approached() {
 #[test]
 fn a_run_that_is_stopped_early_keeps_points_apart() {
     for beta in [0.6, 0.67] {
-        let mut points = white(spaces()[0], 5000, 0).unwrap();
+        let mut points = white(nth(0), 5000, 0).unwrap();
         warp(&mut points);
         let params = WellSpacedParams { beta, max_passes: Some(24), ..WellSpacedParams::default() };
         well_spaced(&mut points, &params, &mut RunContext::default()).unwrap();
@@ -107,9 +107,9 @@ fn a_run_that_is_stopped_early_keeps_points_apart() {
 /// distance from 6.
 #[test]
 fn beta_bounds_angles_and_valences() {
-    for space in [spaces()[0], spaces()[3]] {
+    for space in [nth(0), nth(3)] {
         for beta in [0.99, 0.85, 0.78, 0.75, 0.70] {
-            let mut points = white(space, 2000, 5).unwrap();
+            let mut points = white(&space, 2000, 5).unwrap();
             warp(&mut points);
             well_spaced(&mut points, &WellSpacedParams { beta, ..WellSpacedParams::default() }, &mut RunContext::default()).unwrap();
             let m = measure(&points).unwrap();

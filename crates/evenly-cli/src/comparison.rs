@@ -109,7 +109,7 @@ impl Comparison {
     /// In a sentence.
     pub fn title(&self) -> String {
         let from = self.start.as_ref().map_or_else(|| "the points given".to_owned(), |start| format!("start {start}"));
-        let kind = if self.space.is_periodic() { "torus" } else { "rectangle" };
+        let kind = self.space.kind();
         let most_runs = self.columns.iter().map(|column| column.runs.len()).max().unwrap_or_default();
         let missing = if self.is_interrupted { " (interrupted: runs are missing)" } else { "" };
         format!("{} points, {kind} {}, {from}, {most_runs} runs{missing}: mean and standard deviation", self.n_points, self.space)

@@ -16,7 +16,7 @@ pub fn require_one_stdin<'a>(inputs: impl IntoIterator<Item = &'a PathBuf>) -> a
 }
 
 /// Reads points; if some lay outside a torus and were wrapped, it says so.
-pub fn read_and_tell(input: &Path, space: Space) -> anyhow::Result<PointSet> {
+pub fn read_and_tell(input: &Path, space: &Space) -> anyhow::Result<PointSet> {
     let (points, note) = read(input, space)?;
     if let Some(note) = note {
         say(format_args!("note: {}: {note}", input.display()));
@@ -25,9 +25,9 @@ pub fn read_and_tell(input: &Path, space: Space) -> anyhow::Result<PointSet> {
 }
 
 /// Reads points; on a torus also a note if some lay outside and were wrapped.
-pub fn read(input: &Path, space: Space) -> anyhow::Result<(PointSet, Option<String>)> {
+pub fn read(input: &Path, space: &Space) -> anyhow::Result<(PointSet, Option<String>)> {
     let positions = evenly_io::read_positions(input)?;
-    let n_outside = positions.iter().filter(|p| is_outside(&space, p)).count();
+    let n_outside = positions.iter().filter(|p| is_outside(space, p)).count();
     let points = PointSet::new(space, positions).with_context(|| input.display().to_string())?;
     let note = format!("{n_outside} points lie outside the torus {space} and were wrapped into it; are --size and --origin right?");
     Ok((points, (n_outside > 0).then_some(note)))

@@ -4,6 +4,7 @@ use anyhow::bail;
 use clap::builder::{PossibleValuesParser, StyledStr, TypedValueParser};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, ValueEnum};
+use evenly::Space;
 
 use Method::{
     Capacity, Cvt, Dart, DistMesh, Eliminate, FarthestPoint, Hexagonal, Jittered, Lloyd, OptBeta, PoissonDisk, Procrustes, PushPull,
@@ -91,9 +92,13 @@ impl Method {
         [PoissonDisk, Dart, Eliminate, White, Jittered, Hexagonal].contains(&self)
     }
 
-    /// What it starts from, as an optimiser, if nothing else is asked for.
-    pub fn default_start(self) -> Self {
-        if self == OptBeta { PoissonDisk } else { White }
+    /// What it starts from, as an optimiser, if nothing else is asked for: in a polygon, where no warp takes long waves out, what has none.
+    pub fn default_start(self, space: &Space) -> Self {
+        match (self, space) {
+            (OptBeta, _) => PoissonDisk,
+            (_, Space::Polygon(_)) => Jittered,
+            _ => White,
+        }
     }
 
     /// Optimisers, then starts.

@@ -230,7 +230,7 @@ impl StartArgs {
     pub fn make(
         &self,
         method: Method,
-        space: Space,
+        space: &Space,
         density: &Density,
         n_points: Option<usize>,
         seed: u64,
@@ -255,12 +255,12 @@ impl StartArgs {
 
     fn poisson_disk(
         &self,
-        space: Space,
+        space: &Space,
         density: &Density,
         n_points: Option<usize>,
         seed: u64,
     ) -> anyhow::Result<(PointSet, Option<String>)> {
-        let estimated = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, n_points.unwrap_or(1)) };
+        let estimated = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(space, n_points.unwrap_or(1)) };
         let params = self.spacing.map_or(estimated, |spacing| PoissonDiskParams { spacing, ..estimated });
         let points = poisson_disk_by_density(space, density, &PoissonDiskParams { coverage: self.coverage, ..params }).map_err(by_flag)?;
         let note = n_points.filter(|&n| n != points.n_points()).map(|n| {
@@ -276,7 +276,7 @@ impl StartArgs {
 }
 
 /// Exactly so many points for an optimiser to begin with.
-pub fn start(method: Method, space: Space, density: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
+pub fn start(method: Method, space: &Space, density: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
     match method {
         Method::PoissonDisk => poisson_disk_of_density(space, density, n_points, seed),
         Method::Dart => dart(space, &DartParams { n_points: Some(n_points), seed, ..DartParams::default() }),

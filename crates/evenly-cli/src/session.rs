@@ -101,7 +101,8 @@ impl<'a> Session<'a> {
         self.seed = self.seed.or(optimizer.seed());
         // By a density every method begins with points that follow it.
         let by_density = (!points.density().is_uniform()).then_some(warp_isotropic as fn(&mut PointSet));
-        let warp = optimizer.warp().or(by_density).filter(|_| is_warped && points.n_points() >= 3);
+        let can_warp = is_warped && points.n_points() >= 3 && points.space().region().is_none();
+        let warp = optimizer.warp().or(by_density).filter(|_| can_warp);
         let start = (warp.is_some() && optimizer.targets().is_some()).then(|| points.clone());
         if let Some(warp) = warp {
             self.time("warp", || warp(&mut points));
@@ -177,7 +178,7 @@ impl<'a> Session<'a> {
             command: record::command(),
             method: method.name(),
             seed: self.seed,
-            space: *points.space(),
+            space: points.space().clone(),
             n_points: points.n_points(),
             parameters: self.optimizer.map(|optimizer| optimizer.parameters()),
             run,

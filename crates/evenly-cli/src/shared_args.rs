@@ -2,21 +2,26 @@
 
 use std::path::{Path, PathBuf};
 
+use anyhow::bail;
 use clap::{Args, ValueEnum};
-use evenly::{Density, Error, Rectangle, Space, Torus};
-use evenly_io::{Draw, Photograph, Tone};
+use evenly::{Density, Rectangle, Space, Torus};
+use evenly_io::{Draw, Photograph, Tone, read_polygon};
+
+use crate::talk::say;
 
 #[derive(Args)]
 pub struct SpaceArgs {
-    /// The domain: torus (periodic, its sets tile the plane) or rect (bounded)
-    #[arg(long, value_enum, default_value = "torus")]
-    pub space: SpaceKind,
-    /// Width and height
-    #[arg(long, value_name = "W,H", default_value = "1,1", value_parser = parse_pair, allow_hyphen_values = true)]
-    pub size: [f64; 2],
-    /// Lower left corner
-    #[arg(long, value_name = "X,Y", default_value = "0,0", value_parser = parse_pair, allow_hyphen_values = true)]
-    pub origin: [f64; 2],
+    /// The domain: torus (periodic, its sets tile the plane), rect (bounded), or a polygon's file
+    ///
+    /// Polygons are read as by mesh: GeoJSON, WKT, SVG or text. Points stay inside, and see nothing across its border.
+    #[arg(long, value_name = "SPACE", default_value = "torus", value_parser = parse_space)]
+    space: SpaceArg,
+    /// Width and height of a torus or rect [default: 1,1]
+    #[arg(long, value_name = "W,H", value_parser = parse_pair, allow_hyphen_values = true)]
+    size: Option<[f64; 2]>,
+    /// Its lower left corner [default: 0,0]
+    #[arg(long, value_name = "X,Y", value_parser = parse_pair, allow_hyphen_values = true)]
+    origin: Option<[f64; 2]>,
 }
 
 #[derive(Args)]
@@ -108,13 +113,20 @@ pub struct LongArgs {
     pub quiet: bool,
 }
 
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum SpaceKind {
-    /// Opposite sides are one
+#[derive(Clone)]
+enum SpaceArg {
     Torus,
-    /// Bounded
-    #[value(alias = "rectangle")]
     Rect,
+    Polygon(PathBuf),
+}
+
+fn parse_space(text: &str) -> Result<SpaceArg, String> {
+    match text {
+        "torus" => Ok(SpaceArg::Torus),
+        "rect" | "rectangle" => Ok(SpaceArg::Rect),
+        path if Path::new(path).is_file() || path == "-" => Ok(SpaceArg::Polygon(path.into())),
+        _ => Err("it must be torus, rect, or a polygon's file; there is no file of that name".into()),
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -162,11 +174,25 @@ impl From<DrawArg> for Draw {
 }
 
 impl SpaceArgs {
-    pub fn space(&self) -> Result<Space, Error> {
-        Ok(match self.space {
-            SpaceKind::Torus => Torus::new(self.origin, self.size)?.into(),
-            SpaceKind::Rect => Rectangle::new(self.origin, self.size)?.into(),
-        })
+    /// The domain, and what was repaired of it.
+    pub fn space(&self) -> anyhow::Result<Space> {
+        let (origin, size) = (self.origin.unwrap_or([0.0; 2]), self.size.unwrap_or([1.0; 2]));
+        let path = match &self.space {
+            SpaceArg::Torus => return Ok(Torus::new(origin, size)?.into()),
+            SpaceArg::Rect => return Ok(Rectangle::new(origin, size)?.into()),
+            SpaceArg::Polygon(path) => path,
+        };
+        if self.origin.is_some() || self.size.is_some() {
+            bail!("--size and --origin are for torus and rect; {} has its own", path.display());
+        }
+        let polygon = read_polygon(path, None)?;
+        polygon.repairs().iter().for_each(|repair| say(format_args!("note: {}: {repair}", path.display())));
+        Ok(Space::from(&polygon))
+    }
+
+    /// The polygon's file, where it is one.
+    pub fn path(&self) -> Option<&PathBuf> {
+        if let SpaceArg::Polygon(path) = &self.space { Some(path) } else { None }
     }
 }
 

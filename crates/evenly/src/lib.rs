@@ -53,6 +53,6 @@ pub use points::{
 };
 pub use polygon::Polygon;
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
-pub use space::{Rectangle, Space, Torus};
+pub use space::{Rectangle, Region, Space, Torus};
 pub use sweep::Schedule;
 pub use tour::tour;

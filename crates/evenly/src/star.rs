@@ -50,6 +50,8 @@ pub(crate) struct Star {
     pub scratch: Vec<f64>,
     /// The lengths of the Voronoi edges across the spokes, as [`Self::measure_cell`] has found them.
     pub sides: Vec<f64>,
+    /// By how much more than others its cell's area may be off, where it lies at a ragged border.
+    pub leeway: f64,
     /// What the density makes of it.
     pub metric: Metric,
 }
@@ -127,7 +129,7 @@ impl Star {
         self.wedges.clear();
         self.is_mirror.clear();
         self.weights.clear();
-        self.shift = DVec2::ZERO;
+        (self.shift, self.leeway) = (DVec2::ZERO, 0.0);
         self.metric.clear();
     }
 

@@ -337,10 +337,10 @@ mod tests {
                 1 => Rectangle::new([1e9, -3.0], [100.0, 1.0]).unwrap().into(),
                 _ => Rectangle::new([0.0, 0.0], [1e-9, 1e-9]).unwrap().into(),
             };
-            let mut points = white(space, n, seed).unwrap();
+            let mut points = white(&space, n, seed).unwrap();
             if heap {
                 let places = points.positions().iter().enumerate().map(|(k, &p)| if k % 3 == 0 { points.positions()[0] } else { p });
-                points = PointSet::new(space, places.collect()).unwrap();
+                points = PointSet::new(&space, places.collect()).unwrap();
             }
             let mut seen = tour(&points);
             prop_assert!(n < 20 || length(&points, &seen) <= 2.0 * (n as f64 * space.area()).sqrt() + space.size()[0] + space.size()[1]);

@@ -27,9 +27,9 @@ pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
     if args.density.is_given() && args.inputs.len() > 1 && (args.spectrum || plot.is_some()) {
         bail!("--density with --spectrum or --plot is for one set");
     }
-    input::require_one_stdin(args.inputs.iter().chain(args.density.path()))?;
+    input::require_one_stdin(args.inputs.iter().chain(args.density.path()).chain(args.space.path()))?;
     let density = args.density.density()?;
-    let read = |path: &PathBuf| Ok(input::read_and_tell(path, space)?.with_density(&density));
+    let read = |path: &PathBuf| Ok(input::read_and_tell(path, &space)?.with_density(&density));
     let sets: Vec<PointSet> = args.inputs.iter().map(read).collect::<anyhow::Result<_>>()?;
     let is_local = args.local || args.density.is_given();
     let pool = session::pool(args.measured.threads)?;

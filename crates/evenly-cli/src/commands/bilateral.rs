@@ -18,7 +18,7 @@ pub fn run(args: &Bilateral) -> anyhow::Result<ExitCode> {
     }
     input::require_one_stdin([&args.input, &args.samples])?;
     let image = read_image(&args.input)?;
-    let samples = input::read_and_tell(&args.samples, args.space.space()?)?;
+    let samples = input::read_and_tell(&args.samples, &args.space.space()?)?;
     let params = BilateralParams { kernel_px: args.kernel, range: args.range, n_samples: args.count };
     let pool = session::pool(args.measured.threads)?;
     let told = |e| measured::told(e, &args.samples, &[("kernel_px", "kernel"), ("n_samples", "count")]);

@@ -28,7 +28,7 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
         None => None,
     };
     let given = match &args.input {
-        Some(path) => Some(input::read(path, space)?),
+        Some(path) => Some(input::read(path, &space)?),
         None => None,
     };
     if let Some((_, Some(note))) = &given {
@@ -48,7 +48,7 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     for &method in &methods {
         args.optimizer.optimizer(method, args.seed)?;
     }
-    let start = args.start.unwrap_or(Method::White);
+    let start = args.start.unwrap_or(Method::Procrustes.default_start(&space));
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
     let runner = Runner { args, space, n_points, start, given, cancel };
@@ -103,7 +103,7 @@ impl Runner<'_> {
         Ok(Comparison {
             version: record::VERSION,
             command: record::command(),
-            space: self.space,
+            space: self.space.clone(),
             n_points: self.n_points,
             is_interrupted: self.cancel.is_cancelled(),
             start,
@@ -119,8 +119,8 @@ impl Runner<'_> {
         let optimizer = self.args.optimizer.optimizer(method, seed)?;
         let mut points = match (&optimizer, &self.given) {
             (Some(_), Some(given)) => given.clone(),
-            (Some(_), None) => begin(self.start, self.space, &Density::uniform(), self.n_points, seed)?,
-            (None, _) => PointSet::new(self.space, Vec::new())?,
+            (Some(_), None) => begin(self.start, &self.space, &Density::uniform(), self.n_points, seed)?,
+            (None, _) => PointSet::new(&self.space, Vec::new())?,
         };
         let clock = Instant::now();
         let mut report = None;
@@ -136,9 +136,9 @@ impl Runner<'_> {
             // As an outcome its number is chance; as a start it would not be maximal.
             None if method == Method::PoissonDisk => {
                 let params = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&self.space, self.n_points) };
-                points = poisson_disk(self.space, &params)?;
+                points = poisson_disk(&self.space, &params)?;
             }
-            None => points = begin(method, self.space, &Density::uniform(), self.n_points, seed)?,
+            None => points = begin(method, &self.space, &Density::uniform(), self.n_points, seed)?,
         }
         let seconds = clock.elapsed().as_secs_f64();
         if report.as_ref().is_some_and(|report| report.outcome == Outcome::Cancelled) {

@@ -6,6 +6,7 @@ use anyhow::Context as _;
 use clap::ArgMatches;
 
 use crate::args::Generate;
+use crate::input;
 use crate::method::{Method, refuse_others_flags};
 use crate::method_args::start;
 use crate::session::Session;
@@ -13,9 +14,10 @@ use crate::session::Session;
 pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     refuse_others_flags(&[args.method], flags)?;
     let space = args.space.space()?;
+    input::require_one_stdin(args.density.path().into_iter().chain(args.space.path()))?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, Some(args.seed))?;
-    let begin = args.start.unwrap_or(args.method.default_start());
+    let begin = args.start.unwrap_or(args.method.default_start(&space));
     if args.density.is_given() && optimizer.is_some() {
         begin.require_density()?;
     }
@@ -23,12 +25,12 @@ pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     match optimizer {
         Some(optimizer) => {
             let n_points = args.n_points.context("--n-points is missing: how many?")?;
-            let points = session.time("start", || start(begin, space, &density, n_points, args.seed))?;
+            let points = session.time("start", || start(begin, &space, &density, n_points, args.seed))?;
             // Only white noise has long density waves.
             session.optimize(points, args.method, optimizer, begin == Method::White && !args.optimizer.no_warp)
         }
         None => {
-            let (points, note) = session.time("start", || args.starts.make(args.method, space, &density, args.n_points, args.seed))?;
+            let (points, note) = session.time("start", || args.starts.make(args.method, &space, &density, args.n_points, args.seed))?;
             if let Some(note) = note {
                 session.note(note);
             }

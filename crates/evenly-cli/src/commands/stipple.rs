@@ -46,7 +46,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
     let seeds = (0..).map(|layer| args.seed.wrapping_add(layer));
     for ((ink, n_points), seed) in inks.iter().zip(shares(&inks, args.n_points)).zip(seeds).filter(|((_, n), _)| *n > 0) {
         let tones = ink.tones(&photograph, &tone, args.sizes)?;
-        let work = || Drawn::new(args, space, ink, &tones, n_points, seed, &cancel);
+        let work = || Drawn::new(args, space.clone(), ink, &tones, n_points, seed, &cancel);
         drawn.push(pool.install(work).with_context(|| name.to_owned())?);
     }
     let pen_mm = args.pen.unwrap_or_else(|| match args.edges {
@@ -63,7 +63,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
 
     let recipe = record::recipe(Some(args.seed));
     if targets.output.format().holds_points() {
-        write_points(&united(space, &drawn)?, &[], &recipe, &targets.output)?;
+        write_points(&united(&space, &drawn)?, &[], &recipe, &targets.output)?;
     } else {
         pool.install(|| drawing.write(&recipe, &targets.output))?;
     }
@@ -243,10 +243,10 @@ fn diameter(pen: f64, area: f64) -> f64 {
 
 fn ordered(points: &PointSet, order: &[usize]) -> Result<PointSet, evenly::Error> {
     let positions = order.iter().map(|&index| points.positions()[index]).collect();
-    Ok(PointSet::new(*points.space(), positions)?.with_density(points.density()))
+    Ok(PointSet::new(points.space(), positions)?.with_density(points.density()))
 }
 
 /// The dots of all pens, one after the other.
-fn united(space: Space, drawn: &[Drawn]) -> Result<PointSet, evenly::Error> {
+fn united(space: &Space, drawn: &[Drawn]) -> Result<PointSet, evenly::Error> {
     PointSet::new(space, drawn.iter().flat_map(|drawn| drawn.points.positions()).copied().collect())
 }

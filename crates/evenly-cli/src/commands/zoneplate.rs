@@ -10,7 +10,7 @@ use crate::{input, measured, record, session};
 
 pub fn run(args: &Zoneplate) -> anyhow::Result<ExitCode> {
     let output = args.output.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose()?;
-    let points = input::read_and_tell(&args.input, args.space.space()?)?;
+    let points = input::read_and_tell(&args.input, &args.space.space()?)?;
     let params = ZonePlateParams { pixels: args.pixels, max_frequency: args.frequency, filter: args.filter.into() };
     let pool = session::pool(args.measured.threads)?;
     let plate =

@@ -99,7 +99,7 @@ impl Lab {
         self.bar.set_message(format!("{}, {n_points} points", recipe.name));
         let clock = Instant::now();
         let mut points = match recipe.start {
-            Start::Exact(method) => start(method, space, &Density::uniform(), n_points, seed)?,
+            Start::Exact(method) => start(method, &space, &Density::uniform(), n_points, seed)?,
             Start::Maximal(beta) => maximal(&space, n_points, beta, seed)?,
         };
         let start_seconds = clock.elapsed().as_secs_f64();
@@ -132,7 +132,7 @@ impl Lab {
 
 /// A maximal set of about this many points.
 fn maximal(space: &Space, n_points: usize, beta: f64, seed: u64) -> Result<PointSet, Error> {
-    let of = |spacing: f64| poisson_disk(*space, &PoissonDiskParams { spacing, coverage: Some(beta * spacing), seed });
+    let of = |spacing: f64| poisson_disk(space, &PoissonDiskParams { spacing, coverage: Some(beta * spacing), seed });
     let spacing = PoissonDiskParams::for_about(space, n_points).spacing;
     if beta == 1.0 {
         return of(spacing);

@@ -46,7 +46,7 @@ pub fn spread(
     seed: u64,
     run: &mut RunContext,
 ) -> Result<PointSet, evenly::Error> {
-    let mut points = start(if optimizer.is_some() { Method::White } else { method }, space, density, n_points, seed)?;
+    let mut points = start(if optimizer.is_some() { Method::White } else { method }, &space, density, n_points, seed)?;
     if let Some(optimizer) = optimizer {
         let warp = optimizer.warp().unwrap_or(evenly::warp_isotropic);
         warp(&mut points);

@@ -103,7 +103,7 @@ impl Page {
     /// All there is; what there is not is said in its panel.
     fn report(subject: &Subject) -> Result<Self, Error> {
         let points = subject.first()?;
-        let kind = if points.space().is_periodic() { "torus" } else { "rectangle" };
+        let kind = points.space().kind();
         let many = if subject.sets.len() > 1 { format!(", the first of {} sets", subject.sets.len()) } else { String::new() };
         let name = if subject.name.is_empty() { String::new() } else { format!("{}: ", subject.name) };
         let heading = format!("{name}{} points, {kind} {}{many}", points.n_points(), points.space());

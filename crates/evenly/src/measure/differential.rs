@@ -157,8 +157,8 @@ mod tests {
         for spacings in [vec![], vec![0.1; 999], vec![0.0; 1000], vec![f64::NAN; 1000], vec![1.0; 1000], vec![1e-6; 1000]] {
             assert!(differential_spectrum(&noise, &spacings).is_err());
         }
-        let heap = PointSet::new(*noise.space(), vec![[0.5, 0.5]; 1000]).unwrap();
-        assert!(local_spacings(&heap).is_err() && local_spacings(&white(*noise.space(), 2, 0).unwrap()).is_err());
+        let heap = PointSet::new(noise.space(), vec![[0.5, 0.5]; 1000]).unwrap();
+        assert!(local_spacings(&heap).is_err() && local_spacings(&white(noise.space(), 2, 0).unwrap()).is_err());
         // In a strip of four spacings the disk around a point holds a dozen others: fewer neighbours, and the same spacing.
         let strip = poisson_disk_of(Torus::new([0.0, 0.0], [100.0, 1.0]).unwrap(), 2000, 1).unwrap();
         let mean = local_spacings(&strip).unwrap().iter().sum::<f64>() / 2000.0;

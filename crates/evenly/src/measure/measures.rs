@@ -6,16 +6,21 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::distinct::Distinct;
+use super::sight::{Seen, look};
 use super::star::{StarMeasures, StarReader};
 use super::triangles;
 use super::weighted::{Weighted, density_error, weigh};
 use crate::error::Error;
 use crate::points::PointSet;
+use crate::triangulation::Triangulation;
 
 /// What [`measure`] finds. Lengths are in hexagonal spacings, `sqrt(2 A / (sqrt(3) n))`; capacities in mean capacities, `A / n`.
 ///
-/// In a rectangle Voronoi cells are clipped to the domain, triangles are the dual of the clipped diagram,
+/// In a rectangle and in a polygon Voronoi cells are clipped to the domain, triangles are the dual of the clipped diagram,
 /// and the measures of order and the valences leave out vertices whose cell reaches the border. Angles are NaN where there is no triangle.
+///
+/// In a polygon a border hides what lies behind it: distances are to points that a point sees, and its cell is what it sees of the places that are nearer to it than to other points
+/// that it sees. Behind corners cells may overlap, or leave a little out.
 ///
 /// Where the density varies, distances, the coverage radius and capacities are measured in it: lengths are integrals of its root along segments, from a point to its Delaunay
 /// neighbours and, the mean of three, from a triangle's corners to its circumcentre; areas are integrals of the density itself. Its mean is 1. Angles are what they are.
@@ -81,6 +86,17 @@ pub struct BorderMeasures {
     pub uncovered_fraction: f64,
     /// Vertices without a triangle.
     pub isolated_points: usize,
+    /// In a polygon, `capacity_max_deviation` of the cells that stay clear of the border: what methods with such a target hold. At a ragged border they allow a quarter more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inner_capacity_max_deviation: Option<f64>,
+}
+
+impl Measures {
+    /// The largest deviation of a cell's area for which a method stands that has such a target.
+    pub(crate) fn capacity_deviation_held(&self) -> f64 {
+        let inner = self.border.as_ref().and_then(|border| border.inner_capacity_max_deviation);
+        inner.unwrap_or(self.capacity_max_deviation)
+    }
 }
 
 /// Sums over vertices, added up in a fixed order.
@@ -91,6 +107,7 @@ struct Sums {
     reach: f64,
     capacity_squares: f64,
     capacity_deviation: f64,
+    inner_capacity_deviation: f64,
     second_moment: f64,
     n_inner: usize,
     bond_order: f64,
@@ -115,22 +132,13 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
     let n_points = points.n_points();
     let spacing = domain.hex_spacing(n_points);
 
-    let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
-    let parts: Vec<Sums> = (0..n_distinct)
-        .collect::<Vec<_>>()
-        .par_chunks(1 << 14)
-        .map(|vertices| {
-            let mut reader = StarReader::new(&triangulation, &outgoing);
-            let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
-            for &vertex in vertices {
-                sums.add(reader.read(vertex), mean_capacity, is_shared[vertex]);
-            }
-            sums
-        })
-        .collect();
     let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
-    for part in &parts {
-        sums.merge(part);
+    if domain.border.is_some() {
+        let seen = |Seen { spokes, cell, reach, is_inner }: Seen| StarMeasures { reach, ..StarMeasures::of(spokes, cell, is_inner) };
+        let stars = look(&domain, &triangulation.positions, seen)?;
+        stars.into_iter().zip(&is_shared).for_each(|(star, &is_shared)| sums.add(star, mean_capacity, is_shared));
+    } else {
+        sums = sum_up(&triangulation, mean_capacity, &is_shared);
     }
 
     let field = points.field(&domain);
@@ -172,8 +180,31 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
             interior_angle_rms_deg: triangles.interior.angle_rms_deg(),
             uncovered_fraction: (1.0 - triangles.all.area / domain.area()).max(0.0),
             isolated_points: triangles.isolated_points,
+            inner_capacity_max_deviation: domain.border.is_some().then_some(sums.inner_capacity_deviation),
         }),
     })
+}
+
+/// Sums over all vertices of a triangulation.
+fn sum_up(triangulation: &Triangulation, mean_capacity: f64, is_shared: &[bool]) -> Sums {
+    let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
+    let parts: Vec<Sums> = (0..triangulation.n_base())
+        .collect::<Vec<_>>()
+        .par_chunks(1 << 14)
+        .map(|vertices| {
+            let mut reader = StarReader::new(triangulation, &outgoing);
+            let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
+            for &vertex in vertices {
+                sums.add(reader.read(vertex), mean_capacity, is_shared[vertex]);
+            }
+            sums
+        })
+        .collect();
+    let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
+    for part in &parts {
+        sums.merge(part);
+    }
+    sums
 }
 
 impl Sums {
@@ -187,6 +218,7 @@ impl Sums {
         self.capacity_deviation = self.capacity_deviation.max(deviation.abs());
         self.second_moment += star.second_moment;
         if star.is_inner {
+            self.inner_capacity_deviation = self.inner_capacity_deviation.max(deviation.abs());
             self.n_inner += 1;
             self.neighbours += star.valence;
             self.bond_order += star.bond.length();
@@ -204,6 +236,7 @@ impl Sums {
         self.distance = alone.map(|(distance, _)| distance * spacing).sum();
         self.reach = weighted.coverage_radius * spacing;
         (self.capacity_squares, self.capacity_deviation) = (weighted.capacity_squares, weighted.capacity_deviation);
+        self.inner_capacity_deviation = weighted.inner_capacity_deviation;
     }
 
     fn merge(&mut self, other: &Self) {
@@ -212,6 +245,7 @@ impl Sums {
         self.reach = self.reach.max(other.reach);
         self.capacity_squares += other.capacity_squares;
         self.capacity_deviation = self.capacity_deviation.max(other.capacity_deviation);
+        self.inner_capacity_deviation = self.inner_capacity_deviation.max(other.inner_capacity_deviation);
         self.second_moment += other.second_moment;
         self.n_inner += other.n_inner;
         self.neighbours += other.neighbours;

@@ -9,6 +9,7 @@ mod power;
 mod radial;
 mod rows;
 mod sets;
+mod sight;
 mod star;
 mod tessellation;
 mod triangles;

@@ -34,7 +34,7 @@ impl Rows {
             places[*at as usize] = p;
             *at += 1;
         }
-        Self { domain: *domain, n_cells, cell, starts, places }
+        Self { domain: domain.clone(), n_cells, cell, starts, places }
     }
 
     /// Hands on stretches of points that hold all within `reach` of a place, each with the shift that brings it near, and with others. On a torus half its shorter

@@ -36,11 +36,17 @@ impl<'a> StarReader<'a> {
 
     pub fn read(&mut self, vertex: usize) -> StarMeasures {
         let is_inner = self.cells.read(vertex);
-        let (spokes, cell) = (&self.cells.spokes, &self.cells.cell);
+        StarMeasures::of(&self.cells.spokes, &self.cells.cell, is_inner)
+    }
+}
+
+impl StarMeasures {
+    /// Of the ways to the neighbours and the corners of the cell, both counter-clockwise.
+    pub fn of(spokes: &[DVec2], cell: &[DVec2], is_inner: bool) -> Self {
         let shortest = spokes.iter().map(|s| s.length_squared()).fold(f64::INFINITY, f64::min);
         let farthest = cell.iter().map(|c| c.length_squared()).fold(0.0, f64::max);
         let bond: DVec2 = spokes.iter().map(|&s| sixfold(s)).sum();
-        StarMeasures {
+        Self {
             nearest: shortest.sqrt(),
             reach: farthest.sqrt(),
             capacity: 0.5 * cyclic_pairs(cell).map(|(a, b)| a.perp_dot(b)).sum::<f64>(),

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::distinct::Distinct;
+use super::sight::look;
 use super::voronoi::CellReader;
 use crate::error::Error;
 use crate::points::PointSet;
@@ -50,6 +51,16 @@ pub fn tessellate(points: &PointSet) -> Result<Tessellation, Error> {
         let first = triangulation.positions[corners[0] as usize];
         tessellation.triangles.push(corners.map(index));
         tessellation.corners.push([outward(first), outward(first + u), outward(first + v)]);
+    }
+    if triangulation.domain.border.is_some() {
+        let seen =
+            look(&triangulation.domain, &triangulation.positions, |seen| (seen.cell.to_vec(), seen.is_inner.then_some(seen.spokes.len())))?;
+        for (vertex, (cell, valence)) in seen.into_iter().enumerate() {
+            let (site, point) = (triangulation.positions[vertex], index(vertex as u32));
+            tessellation.cells[point] = cell.into_iter().map(|c| outward(site + c)).collect();
+            tessellation.valence[point] = valence;
+        }
+        return Ok(tessellation);
     }
     let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
     let mut reader = CellReader::new(&triangulation, &outgoing);

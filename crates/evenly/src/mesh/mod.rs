@@ -269,7 +269,10 @@ struct Graded {
 fn graded(polygon: &Polygon, params: &MeshParams) -> Result<Graded, Error> {
     let domain = polygon.domain();
     let unit = domain.restore_length(1.0);
-    let wanted = params.wanted.map(|wanted| move |p: DVec2| wanted(domain.restore(p)) / unit);
+    let wanted = params.wanted.map(|wanted| {
+        let domain = domain.clone();
+        move |p: DVec2| wanted(domain.restore(p)) / unit
+    });
     let wanted = wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync));
     let grading = params.grading(&domain, Space::from(*polygon.frame()).resolution(), wanted);
     require_few(polygon.area() / (unit * grading.largest).powi(2))?;

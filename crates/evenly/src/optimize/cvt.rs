@@ -20,7 +20,7 @@ use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 use crate::space::Domain;
 use crate::star::Senses;
-use crate::triangulation::LiveMesh;
+use crate::triangulation::{LiveMesh, Moments, StarBuffer};
 
 /// What [`cvt`] can be told.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -125,14 +125,18 @@ impl State {
     fn of(mesh: &mut LiveMesh) -> Result<Self, Error> {
         /// The energy of a cell of the hexagonal lattice: 5 / (24 sqrt(3)).
         const HEXAGON: f64 = 0.120_281_306_081_232_4;
-        let cells = mesh.look(Senses::default(), |star, spokes| {
+        let scale = 1.0 / mesh.spacing();
+        let cells = mesh.look(Senses::default(), |_, _, StarBuffer { star, spokes, sight, .. }| {
+            if !sight.outline.is_empty() {
+                let Moments { area, centroid, second } = sight.moments();
+                return (second * scale.powi(4), area * scale * scale, centroid);
+            }
             star.find_centroid();
             let to_centroid: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
             let energy = star.second_moment();
             (energy, star.measure_cell(), to_centroid)
         })?;
         let n = cells.len() as f64;
-        let scale = 1.0 / mesh.spacing();
         Ok(Self {
             places: mesh.points(),
             energy: cells.iter().map(|cell| cell.0).sum::<f64>() / (n * HEXAGON),

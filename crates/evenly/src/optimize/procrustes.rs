@@ -24,7 +24,7 @@ use serde::Serialize;
 
 use self::mesh::Mesh;
 use self::model::Sides;
-use super::prepare::{Prepared, prepare};
+use super::prepare::{Prepared, prepare, require_box};
 use crate::density::SoftField;
 use crate::error::Error;
 use crate::points::PointSet;
@@ -119,6 +119,7 @@ const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 /// ```
 pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
+    require_box(points)?;
     let mut report = Report::new("procrustes", points.n_points());
     if !GOOD_SIDES.contains(&params.side) {
         report.notes.push(format!("side {} is outside [1, 1.625], where triangles keep their shape", params.side));

@@ -183,7 +183,7 @@ impl Targets for PushPullParams {
         let targets = [
             ("min_distance", self.min_distance, measures.min_distance, -1.0),
             ("coverage_radius", self.coverage_radius, measures.coverage_radius, 1.0),
-            ("capacity_tolerance", self.capacity_tolerance, measures.capacity_max_deviation, 1.0),
+            ("capacity_tolerance", self.capacity_tolerance, measures.capacity_deviation_held(), 1.0),
         ];
         let wanted = targets.into_iter().filter_map(|(name, wanted, measured, sign)| Some((name, wanted?, measured, sign)));
         wanted
@@ -195,7 +195,7 @@ impl Targets for PushPullParams {
     fn worst_miss(&self, measures: &Measures) -> f64 {
         let of_distance = self.min_distance.map(|wanted| 1.0 - measures.min_distance / wanted);
         let of_radius = self.coverage_radius.map(|wanted| measures.coverage_radius / wanted - 1.0);
-        let of_capacity = self.capacity_tolerance.map(|wanted| measures.capacity_max_deviation - wanted);
+        let of_capacity = self.capacity_tolerance.map(|wanted| measures.capacity_deviation_held() - wanted);
         [of_distance, of_radius, of_capacity].into_iter().flatten().fold(0.0, f64::max)
     }
 
@@ -252,6 +252,8 @@ pub(super) fn push_and_pull(
         schedule: params.schedule,
         keeps_best: true,
         ends_if_diverging: params.relaxation > params.safe_relaxation(),
+        // In the nooks of a border targets may not be reached at all.
+        ends_if_stuck: points.space().region().is_some(),
         ..Plan::of_passes(params.pass_limit(points.n_points()), params.seed)
     };
 

@@ -21,7 +21,7 @@ impl Bins {
     /// Empty bins, whose sides are `reach` at least.
     pub fn new(domain: &Domain, reach: f64) -> Self {
         let n_bins = (domain.size / reach).floor().max(DVec2::ONE).to_array().map(|n| n as usize);
-        Self { domain: *domain, n_bins, last: vec![NONE; n_bins[0] * n_bins[1]], before: Vec::new(), places: Vec::new() }
+        Self { domain: domain.clone(), n_bins, last: vec![NONE; n_bins[0] * n_bins[1]], before: Vec::new(), places: Vec::new() }
     }
 
     pub fn push(&mut self, place: DVec2) {

@@ -5,12 +5,11 @@
 //!
 //! Cost: O(n tries) at most. It does not promise that all gaps are filled: [`poisson_disk`](super::poisson_disk::poisson_disk) does.
 
-use glam::DVec2;
-
 use super::bins::Bins;
 use super::point_set::PointSet;
 use super::poisson_disk::{rounding_margin, validate_spacing};
 use super::random::Random;
+use super::uniform::Uniform;
 use crate::error::Error;
 use crate::space::{Domain, Space};
 
@@ -49,7 +48,12 @@ pub fn dart(space: impl Into<Space>, params: &DartParams) -> Result<PointSet, Er
     let input_to_domain = 1.0 / domain.restore_length(1.0);
     let widest = domain.hex_spacing(1).max(domain.size.max_element());
     let mut spacing = params.spacing.map_or(widest, |spacing| spacing * input_to_domain);
-    let mut darts = Darts { random: Random::new(params.seed, 3), bins: Bins::new(&domain, 1.1 * spacing), domain };
+    let mut darts = Darts {
+        random: Random::new(params.seed, 3),
+        uniform: Uniform::new(&space),
+        bins: Bins::new(&domain, 1.1 * spacing),
+        domain: domain.clone(),
+    };
     let mut bin = spacing;
     while params.n_points.is_none_or(|n| darts.bins.places().len() < n) {
         // Far from 0 rounding brings points nearer.
@@ -95,6 +99,7 @@ impl DartParams {
 struct Darts {
     domain: Domain,
     random: Random,
+    uniform: Uniform,
     bins: Bins,
 }
 
@@ -102,8 +107,7 @@ impl Darts {
     /// Throws until a dart stays; whether one of so many did.
     fn throw(&mut self, distance: f64, tries: usize) -> bool {
         for _ in 0..tries {
-            let x = self.random.unit();
-            let place = self.domain.land(DVec2::new(x, self.random.unit()) * self.domain.size);
+            let place = self.domain.land(self.uniform.place(&mut self.random));
             if self.bins.near(place).all(|(_, way)| way.length_squared() >= distance * distance) {
                 self.bins.push(place);
                 return true;

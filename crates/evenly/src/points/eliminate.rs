@@ -63,7 +63,7 @@ pub fn eliminate(candidates: &PointSet, n_points: usize) -> Result<PointSet, Err
     }
     order.extend(left);
     let positions = order.iter().rev().map(|&index| candidates.positions()[index as usize]).collect();
-    Ok(PointSet::new(*candidates.space(), positions)?.with_density(candidates.density()))
+    Ok(PointSet::new(candidates.space(), positions)?.with_density(candidates.density()))
 }
 
 /// Takes points out until `n_points` are left; returns them in the order in which they went.

@@ -11,10 +11,17 @@ use crate::space::Space;
 /// Rows may differ by one in their number of points, so that any `n` is met exactly.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] for no points, [`Error::TooManyPoints`] and [`Error::TooFine`] for more than the domain can hold.
+/// [`Error::InvalidParameter`] for no points and in a polygon, [`Error::TooManyPoints`] and [`Error::TooFine`] for more than the domain can hold.
 pub fn hexagonal(space: impl Into<Space>, n_points: usize) -> Result<PointSet, Error> {
     let space = space.into();
     PointSet::validate(&space, n_points)?;
+    if space.region().is_some() {
+        return Err(Error::InvalidParameter {
+            name: "space",
+            value: "a polygon".into(),
+            expected: "a torus or a rectangle for the hexagonal lattice",
+        });
+    }
     let size = space.domain().size;
     let n_rows = n_rows(n_points, size, space.is_periodic());
     let rows = (0..n_rows).flat_map(|row| {

@@ -1,11 +1,13 @@
 //! A jittered grid: one uniform point in each of `n` cells of equal area.
 //!
-//! The cells stand in rows. Rows may differ by one in their number of cells, and then in height, so that any `n` is met exactly.
+//! The cells stand in rows. Rows may differ by one in their number of cells, and then in height, so that any `n` is met exactly. In a polygon they are the
+//! pieces of a Hilbert curve's way through it.
 
 use glam::DVec2;
 
 use super::point_set::PointSet;
 use super::random::Random;
+use super::strata;
 use crate::error::Error;
 use crate::space::Space;
 
@@ -17,7 +19,12 @@ pub fn jittered(space: impl Into<Space>, n_points: usize, seed: u64) -> Result<P
     let space = space.into();
     PointSet::validate(&space, n_points)?;
     let mut random = Random::new(seed, 1);
-    let size = space.domain().size;
+    let domain = space.domain();
+    if let Some(region) = space.region() {
+        let places = strata::places(region, &domain, n_points, &mut random);
+        return Ok(PointSet::from_normalized(space, places.into_iter()));
+    }
+    let size = domain.size;
     let n_rows = ((n_points as f64 * size.y / size.x).sqrt().round() as usize).clamp(1, n_points);
     let cells = (0..n_rows).flat_map(|row| {
         let (first, end) = (row * n_points / n_rows, (row + 1) * n_points / n_rows);

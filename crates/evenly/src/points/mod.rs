@@ -11,6 +11,8 @@ mod poisson_disk;
 mod radius_bins;
 mod random;
 mod separate;
+mod strata;
+mod uniform;
 mod varying_disk;
 mod warp;
 mod white;

@@ -44,7 +44,7 @@ impl PointSet {
                 if (0..2).any(|axis| !is_inside(axis) || at[axis] == origin[axis] + size[axis]) {
                     *point = domain.restore(domain.normalize(at));
                 }
-            } else if !(is_inside(0) && is_inside(1)) {
+            } else if !(is_inside(0) && is_inside(1) && domain.holds(at)) {
                 return Err(Error::OutsideDomain { index, point: at, domain: space.to_string() });
             }
         }
@@ -99,7 +99,7 @@ impl PointSet {
     pub(crate) fn place(&mut self, domain: &Domain, order: &[u32], positions: &[DVec2]) {
         let field = self.field(domain);
         for (&index, &q) in order.iter().zip(positions) {
-            self.positions[index as usize] = domain.restore(field.as_ref().map_or(q, |field| domain.land(field.settle(q))));
+            self.positions[index as usize] = domain.restore(field.as_ref().map_or(q, |field| domain.walk(q, field.settle(q))));
         }
     }
 

@@ -44,10 +44,10 @@ impl PoissonDiskParams {
     pub fn for_about(space: &Space, n_points: usize) -> Self {
         // In square roots of the area over n, which do not underflow.
         let unit = space.hex_spacing(n_points.max(1)) * 0.75f64.sqrt().sqrt();
-        let [width, height] = space.size();
-        let border = if space.is_periodic() { 0.0 } else { ON_BORDER * 2.0 * (width + height) / unit / n_points.max(1) as f64 };
+        let border = if space.is_periodic() { 0.0 } else { ON_BORDER * space.perimeter() / unit / n_points.max(1) as f64 };
         // n = DENSITY A / spacing^2 + ON_BORDER perimeter / spacing.
         let spacing = unit * 0.5 * (border + (border * border + 4.0 * DENSITY).sqrt());
+        let [width, height] = space.size();
         let widest = if space.is_periodic() { width.min(height) } else { f64::INFINITY };
         Self { spacing: spacing.min(widest), coverage: None, seed: 0 }
     }
@@ -80,7 +80,7 @@ const ROUNDING: f64 = 1e-15;
 /// Checks that as many points can be made as fit at random with this spacing, positive and finite, in input units.
 pub(super) fn validate_spacing(space: &Space, spacing: f64) -> Result<(), Error> {
     let [width, height] = space.size().map(|side| side / spacing);
-    let most = DENSITY * width * height + ON_BORDER * 2.0 * (width + height);
+    let most = DENSITY * width * height * space.fullness() + ON_BORDER * space.perimeter() / spacing;
     // Chance has its way with the last of them.
     if most > 1.001 * MAX_POINTS as f64 {
         return Err(Error::TooManyPoints(most.min(1e15) as usize, MAX_POINTS));
@@ -138,7 +138,7 @@ pub fn poisson_disk_of(space: impl Into<Space>, n_points: usize, seed: u64) -> R
     // Three standard deviations.
     let mut surplus = 1 + (0.7 * (n_points as f64).sqrt()) as usize;
     loop {
-        let points = poisson_disk(space, &PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, n_points + surplus) })?;
+        let points = poisson_disk(&space, &PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, n_points + surplus) })?;
         if points.n_points() >= n_points {
             return eliminate(&points, n_points);
         }
@@ -177,6 +177,8 @@ struct Darts {
 const SMALLEST: f64 = 1e-13;
 /// The last level whose squares are kept: they are eight in a row.
 const KEPT: u8 = 3;
+/// From this level on a square is seen by whom its centre is seen.
+const FINE: u8 = 6;
 /// So often another place is tried before a point is put where the dart fell.
 const TRIES: usize = 100;
 
@@ -205,7 +207,9 @@ impl Darts {
             divided: Vec::new(),
         };
         for cell in darts.cells.own() {
-            darts.wind(cell, 0.0, 1.0);
+            let corner = darts.cells.corner(cell);
+            let is_outside = darts.is_outside(corner + 0.5 * darts.cells.side, 0.5 * darts.cells.side);
+            darts.wind(cell, 0.0, if is_outside { 0.0 } else { 1.0 });
         }
         darts
     }
@@ -238,7 +242,8 @@ impl Darts {
         let is_on_square = level <= KEPT || f64::from(self.areas[cell]) * self.random.unit() < self.area(level);
         if is_on_square {
             let dart = self.dart(level);
-            if self.is_farther(cell, dart, self.conflict.max(self.coverage)) {
+            let is_inside = self.cells.domain.border.as_ref().is_none_or(|border| border.contains(dart));
+            if is_inside && self.is_farther(cell, dart, self.conflict.max(self.coverage)) {
                 let point = self.displaced(cell, dart);
                 self.cells.put(point, self.coverage);
                 if self.cells.clocks[cell] < f32::INFINITY {
@@ -264,10 +269,23 @@ impl Darts {
         snap(square + 0.5 * self.side(level) * DVec2::new(x, self.random.signed()))
     }
 
+    /// Whether all of a square lies beyond a border.
+    fn is_outside(&self, centre: DVec2, half: DVec2) -> bool {
+        self.cells.domain.border.as_ref().is_some_and(|border| border.is_outside(centre - half, centre + half))
+    }
+
+    /// Whether a point sees a square: all of it, or of a small one what matters.
+    fn is_seen(&self, point: DVec2, centre: DVec2, half: DVec2, level: u8) -> bool {
+        self.cells.domain.border.as_ref().is_none_or(|border| {
+            let is_open = !border.reaches(point.min(centre - half), point.max(centre + half));
+            is_open || level >= FINE && (!border.contains(centre) || border.sees(point, centre))
+        })
+    }
+
     /// Whether no point is nearer to a place than the root of `squared`.
     fn is_farther(&self, cell: usize, place: DVec2, squared: f64) -> bool {
         // No distance from NaN is below anything.
-        !self.cells.around(cell).any(|point| point.distance_squared(place) < squared)
+        !self.cells.around(cell).any(|point| point.distance_squared(place) < squared && self.cells.domain.sees(point, place))
     }
 
     /// A place that covers the dart's, and is not too near to a point.
@@ -340,7 +358,7 @@ impl Darts {
         self.near.truncate(n_near);
     }
 
-    /// Divides the squares of a level, and leaves out what one disk covers.
+    /// Divides the squares of a level, and leaves out what one disk covers, and what lies outside.
     fn divide(&mut self, level: u8) {
         let half = 0.5 * self.side(level + 1);
         self.divided.clear();
@@ -348,7 +366,8 @@ impl Darts {
             for by in [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE] {
                 let centre = square + by * half;
                 let is_covered = |near: &DVec2| ((*near - centre).abs() + half).length_squared() <= self.coverage;
-                if !self.near.iter().any(is_covered) {
+                let is_seen = |near: &&DVec2| self.is_seen(**near, centre, half, level);
+                if !self.near.iter().filter(|near| is_covered(near)).any(|near| is_seen(&near)) && !self.is_outside(centre, half) {
                     self.divided.push(centre);
                 }
             }

@@ -54,7 +54,7 @@ pub(crate) fn make_distinct(domain: &Domain, positions: &mut [DVec2], spacing: f
 
 fn jitter(domain: &Domain, p: DVec2, amount: f64, random: &mut Random) -> DVec2 {
     let x = random.signed();
-    domain.land(p + amount * DVec2::new(x, random.signed()))
+    domain.walk(p, p + amount * DVec2::new(x, random.signed()))
 }
 
 /// All points but the first at each place that is taken more than once.

@@ -42,8 +42,8 @@ pub fn poisson_disk_by_density(space: impl Into<Space>, density: &Density, param
         });
     }
     let mean = params.spacing / domain.restore_length(1.0);
-    let mut disks = Disks { domain, field, mean, bins: bins_for(&domain, mean), places: Vec::new() };
     let expected = (0.7 * domain.area() / (mean * mean)).ceil().max(1.0);
+    let mut disks = Disks { bins: bins_for(&domain, mean), domain, field, mean, places: Vec::new() };
     let mut random = Random::new(params.seed, 6);
     loop {
         let before = disks.places.len();
@@ -73,7 +73,7 @@ pub fn poisson_disk_of_density(space: impl Into<Space>, density: &Density, n_poi
     let mut wanted = n_points + n_points / 10 + 8;
     loop {
         let params = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, wanted) };
-        let points = poisson_disk_by_density(space, density, &params)?;
+        let points = poisson_disk_by_density(&space, density, &params)?;
         if points.n_points() >= n_points {
             return eliminate(&points, n_points);
         }

@@ -4,9 +4,10 @@ use glam::DVec2;
 
 use super::point_set::PointSet;
 use super::random::Random;
-use crate::density::Density;
+use super::uniform::Uniform;
+use crate::density::{Density, Field};
 use crate::error::Error;
-use crate::space::Space;
+use crate::space::{Domain, Space};
 
 /// `n_points` independent uniform points.
 ///
@@ -16,12 +17,8 @@ pub fn white(space: impl Into<Space>, n_points: usize, seed: u64) -> Result<Poin
     let space = space.into();
     PointSet::validate(&space, n_points)?;
     let mut random = Random::new(seed, 0);
-    let size = space.domain().size;
-    let points = (0..n_points).map(|_| {
-        let x = random.unit();
-        DVec2::new(x, random.unit()) * size
-    });
-    Ok(PointSet::from_normalized(space, points))
+    let uniform = Uniform::new(&space);
+    Ok(PointSet::from_normalized(space, (0..n_points).map(|_| uniform.place(&mut random))))
 }
 
 /// `n_points` independent points, distributed by the density, which the set keeps.
@@ -30,12 +27,29 @@ pub fn white(space: impl Into<Space>, n_points: usize, seed: u64) -> Result<Poin
 /// As [`white`].
 pub fn white_by_density(space: impl Into<Space>, density: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
     let space = space.into();
-    let Some(field) = density.field(&space.domain()) else { return white(space, n_points, seed) };
+    let domain = space.domain();
+    let Some(field) = density.field(&domain) else { return white(space, n_points, seed) };
     PointSet::validate(&space, n_points)?;
     let mut random = Random::new(seed, 0);
-    let points = (0..n_points).map(|_| {
+    let points = (0..n_points).map(|_| draw(&domain, &field, &mut random)).collect::<Result<Vec<_>, _>>()?;
+    Ok(PointSet::from_normalized(space, points.into_iter()).with_density(density))
+}
+
+/// So often a place is drawn until one lies in the domain.
+const MOST_DRAWS: usize = 1_000_000;
+
+/// A place in the domain by the density.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] where the density has next to nothing there.
+pub(super) fn draw(domain: &Domain, field: &Field, random: &mut Random) -> Result<DVec2, Error> {
+    let mut draws = (0..MOST_DRAWS).map(|_| {
         let mass = random.unit();
-        field.place(mass, random.unit())
+        domain.land(field.place(mass, random.unit()))
     });
-    Ok(PointSet::from_normalized(space, points).with_density(density))
+    draws.find(|&place| domain.contains(place)).ok_or(Error::InvalidParameter {
+        name: "density",
+        value: "next to 0 in the whole domain".into(),
+        expected: "more than 0 somewhere in it",
+    })
 }

@@ -11,7 +11,7 @@ use self::clean::{Corner, clean};
 pub(crate) use self::crossings::meetings;
 use self::crossings::{Meeting, cut, is_minor, twice_area};
 use crate::error::Error;
-use crate::space::{Domain, Rectangle, Space};
+use crate::space::{Domain, Rectangle, Region, Space};
 use crate::triangulation::{Crossing, Graph, HalfEdges, Planar, next, planar};
 
 /// A bounded domain with a border of straight segments. It may have holes and several parts, and parts may touch in points.
@@ -205,6 +205,18 @@ impl Polygon {
     /// The border's segments, by their corners; the inside is on their left.
     pub(crate) fn border(&self) -> &[[u32; 2]] {
         &self.border
+    }
+}
+
+impl From<&Polygon> for Space {
+    /// The inside of the polygon, for points.
+    fn from(polygon: &Polygon) -> Self {
+        let Polygon { corners, border, .. } = polygon;
+        // Its border is clean, so nothing crosses.
+        let inside = planar(Graph { points: corners, border, lines: &[] }).unwrap_or_default();
+        let triangles = inside.half_edges.triangles().map(|t| t.map(|v| inside.positions[v as usize])).collect();
+        let segments = border.iter().map(|ends| ends.map(|v| corners[v as usize])).collect();
+        Region::new(polygon.frame, polygon.rings.clone(), polygon.area, triangles, segments).into()
     }
 }
 

@@ -4,8 +4,11 @@
 //! of 2^-47. Differences of positions, and sums with a few periods, are therefore exact: a triangle and its copy across the
 //! seam give the predicates the same bits.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
+use super::border::Border;
 use crate::predicates::is_left_turn;
 
 /// Adding and subtracting this rounds to a multiple of 2^-47, for |x| < 16.
@@ -15,8 +18,8 @@ const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
 /// The spacing of the grid on which all positions lie.
 pub(crate) const GRID: f64 = 1.0 / (1u64 << 47) as f64;
 
-/// A box [0, size.x] x [0, size.y], periodic or not.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A box [0, size.x] x [0, size.y], periodic or not, or what a border encloses in it.
+#[derive(Debug, Clone)]
 pub(crate) struct Domain {
     pub size: DVec2,
     pub is_periodic: bool,
@@ -29,6 +32,8 @@ pub(crate) struct Domain {
     end: DVec2,
     /// A power of two: normalised = (input - origin) * scale.
     scale: f64,
+    /// What encloses the domain, where that is not the box itself.
+    pub border: Option<Arc<Border>>,
 }
 
 /// Rounds to the grid.
@@ -50,18 +55,25 @@ impl Domain {
             origin,
             end: origin + size,
             scale,
+            border: None,
         };
-        domain.with_size(domain.size)
+        let size = domain.size;
+        domain.with_size(size)
+    }
+
+    /// What a border encloses in it.
+    pub fn within(self, border: Arc<Border>) -> Self {
+        Self { border: Some(border), ..self }
     }
 
     /// The same domain, `copies` times as wide and high: the finite cover of a torus.
     pub fn covered(&self, copies: [u32; 2]) -> Self {
-        self.with_size(self.size * DVec2::new(f64::from(copies[0]), f64::from(copies[1])))
+        self.clone().with_size(self.size * DVec2::new(f64::from(copies[0]), f64::from(copies[1])))
     }
 
     /// The domain of which this is the cover.
     pub fn uncovered(&self, copies: [u32; 2]) -> Self {
-        self.with_size(self.size / DVec2::new(f64::from(copies[0]), f64::from(copies[1])))
+        self.clone().with_size(self.size / DVec2::new(f64::from(copies[0]), f64::from(copies[1])))
     }
 
     fn with_size(mut self, size: DVec2) -> Self {
@@ -74,7 +86,7 @@ impl Domain {
     }
 
     pub fn area(&self) -> f64 {
-        self.size.x * self.size.y
+        self.border.as_ref().map_or(self.size.x * self.size.y, |border| border.area)
     }
 
     /// The spacing of the hexagonal lattice with `n_points` points.
@@ -88,7 +100,19 @@ impl Domain {
         if self.is_periodic {
             q -= (q / self.size).floor() * self.size;
         }
-        self.land(q)
+        self.inside(q)
+    }
+
+    /// Whether a place in the frame, in input units, lies in the domain or on its border.
+    pub fn holds(&self, p: [f64; 2]) -> bool {
+        self.border.as_ref().is_none_or(|border| border.holds(self.land((DVec2::from(p) - self.origin) * self.scale)))
+    }
+
+    /// The place in the domain, clear of a border, that is next to one in it.
+    #[inline]
+    pub fn inside(&self, q: DVec2) -> DVec2 {
+        let q = self.land(q);
+        self.border.as_ref().map_or(q, |border| border.inside(q))
     }
 
     /// To input units.
@@ -131,7 +155,7 @@ impl Domain {
         d.abs().cmplt(self.longest_spoke).all()
     }
 
-    /// The place in the domain nearest to `q`, on the grid: wrapped on a torus, clamped in a rectangle.
+    /// The place in the box nearest to `q`, on the grid: wrapped on a torus, clamped in a rectangle.
     #[inline]
     pub fn land(&self, q: DVec2) -> DVec2 {
         let q = snap(q);
@@ -144,15 +168,28 @@ impl Domain {
         }
     }
 
-    /// The radius of the largest disk around a place that the domain holds: on a torus, without covering a place twice.
+    /// Where a point at `from` comes to that is to go to `to`: a border stops it, or leads it along.
+    #[inline]
+    pub fn walk(&self, from: DVec2, to: DVec2) -> DVec2 {
+        let to = self.land(to);
+        self.border.as_ref().map_or(to, |border| border.land(from, to))
+    }
+
+    /// Whether no border stands between two places.
+    #[inline]
+    pub fn sees(&self, a: DVec2, b: DVec2) -> bool {
+        self.border.as_ref().is_none_or(|border| border.sees(a, b))
+    }
+
+    /// The radius of the largest disk around a place that the box holds: on a torus, without covering a place twice.
     pub fn room(&self, q: DVec2) -> f64 {
         let room = if self.is_periodic { 0.5 * self.size } else { q.min(self.size - q) };
         room.min_element()
     }
 
-    /// Whether a place lies in the closed box.
+    /// Whether a place lies in the domain.
     pub fn contains(&self, q: DVec2) -> bool {
-        q.cmpge(DVec2::ZERO).all() && q.cmple(self.size).all()
+        q.cmpge(DVec2::ZERO).all() && q.cmple(self.size).all() && self.border.as_ref().is_none_or(|border| border.contains(q))
     }
 }
 

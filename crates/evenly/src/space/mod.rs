@@ -1,8 +1,12 @@
-//! Where points live: the periodic [`Torus`], the bounded [`Rectangle`]. Inside, both are one normalised [`Domain`](domain::Domain).
+//! Where points live: the periodic [`Torus`], the bounded [`Rectangle`], the [`Region`] in a polygon. Inside, all are one normalised [`Domain`](domain::Domain).
 
+mod border;
 mod domain;
+mod region;
 
+pub(crate) use border::Border;
 pub(crate) use domain::{Domain, GRID, snap};
+pub use region::Region;
 
 use serde::Serialize;
 
@@ -81,13 +85,15 @@ fn ulp(x: f64) -> f64 {
 }
 
 /// A domain for points.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Space {
     /// Periodic.
     Torus(Torus),
     /// Bounded.
     Rectangle(Rectangle),
+    /// Bounded by straight segments, perhaps with holes and in several parts.
+    Polygon(Region),
 }
 
 impl From<Torus> for Space {
@@ -102,12 +108,25 @@ impl From<Rectangle> for Space {
     }
 }
 
+impl From<Region> for Space {
+    fn from(region: Region) -> Self {
+        Self::Polygon(region)
+    }
+}
+
+impl From<&Space> for Space {
+    fn from(space: &Space) -> Self {
+        space.clone()
+    }
+}
+
 impl Space {
     /// The lower left corner, in input units.
     pub fn origin(&self) -> [f64; 2] {
         match self {
             Self::Torus(torus) => torus.origin,
             Self::Rectangle(rectangle) => rectangle.origin,
+            Self::Polygon(region) => region.frame().origin,
         }
     }
 
@@ -116,6 +135,7 @@ impl Space {
         match self {
             Self::Torus(torus) => torus.size,
             Self::Rectangle(rectangle) => rectangle.size,
+            Self::Polygon(region) => region.frame().size,
         }
     }
 
@@ -124,9 +144,23 @@ impl Space {
         matches!(self, Self::Torus(_))
     }
 
+    /// What it is called: torus, rectangle or polygon.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Torus(_) => "torus",
+            Self::Rectangle(_) => "rectangle",
+            Self::Polygon(_) => "polygon",
+        }
+    }
+
+    /// The inside of a polygon, where it is that.
+    pub fn region(&self) -> Option<&Region> {
+        if let Self::Polygon(region) = self { Some(region) } else { None }
+    }
+
     /// The domain's area, in input units squared.
     pub fn area(&self) -> f64 {
-        self.size()[0] * self.size()[1]
+        self.region().map_or(self.size()[0] * self.size()[1], Region::area)
     }
 
     /// The spacing of the hexagonal lattice with `n_points` points, `sqrt(2 A / (sqrt(3) n))`, in input units:
@@ -134,12 +168,29 @@ impl Space {
     pub fn hex_spacing(&self, n_points: usize) -> f64 {
         // Side by side, so that tiny domains do not underflow.
         let [width, height] = self.size().map(|side| (side / n_points as f64).sqrt());
-        width * height * (2.0 * n_points as f64 / 3f64.sqrt()).sqrt()
+        width * height * (2.0 * n_points as f64 / 3f64.sqrt()).sqrt() * self.fullness().sqrt()
+    }
+
+    /// The length of its border, in input units; on a torus that of the lines along which it is cut open.
+    pub(crate) fn perimeter(&self) -> f64 {
+        let length = |ring: &Vec<[f64; 2]>| -> f64 {
+            let ends = ring.iter().zip(ring.iter().cycle().skip(1));
+            ends.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
+        };
+        match self.region() {
+            Some(region) => region.rings().iter().map(length).sum(),
+            None => 2.0 * (self.size()[0] + self.size()[1]),
+        }
+    }
+
+    /// The share of the frame that is inside.
+    pub(crate) fn fullness(&self) -> f64 {
+        self.region().map_or(1.0, |region| region.area() / region.frame().size[0] / region.frame().size[1])
     }
 
     /// The same in normalised coordinates.
     pub(crate) fn domain(&self) -> Domain {
-        Domain::new(self.origin(), self.size(), self.is_periodic())
+        self.region().map_or_else(|| Domain::new(self.origin(), self.size(), self.is_periodic()), Region::domain)
     }
 
     /// The distance between neighbouring f64 at the domain's far end, in input units.
@@ -162,6 +213,7 @@ impl Space {
 impl std::fmt::Display for Space {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (origin, size) = (self.origin(), self.size());
-        write!(f, "{} x {} at ({}, {})", size[0], size[1], origin[0], origin[1])
+        let of = if self.region().is_some() { "of the polygon in " } else { "" };
+        write!(f, "{of}{} x {} at ({}, {})", size[0], size[1], origin[0], origin[1])
     }
 }

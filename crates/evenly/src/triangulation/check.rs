@@ -146,7 +146,7 @@ mod tests {
     fn random_sets_of_every_size_are_proved() {
         for space in SPACES() {
             for n in [3, 4, 5, 7, 20, 100, 1000, 20_011] {
-                let points = white(space, n, n as u64).unwrap();
+                let points = white(&space, n, n as u64).unwrap();
                 let fractions = points.positions().iter().map(|p| [0, 1].map(|k| (p[k] - space.origin()[k]) / space.size()[k]));
                 prove(&space, fractions).unwrap();
             }
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn a_large_even_set_needs_no_cover() {
-        let points = jittered(SPACES()[0], 5000, 3).unwrap();
+        let points = jittered(&SPACES()[0], 5000, 3).unwrap();
         assert_eq!(prove(&SPACES()[0], points.positions().iter().copied()).unwrap().copies, [1, 1]);
     }
 
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn big_voids_are_bridged() {
-        let some = white(SPACES()[0], 300, 5).unwrap();
+        let some = white(&SPACES()[0], 300, 5).unwrap();
         let squeezed = |low: f64, width: f64| some.positions().iter().map(move |p| [low + width * p[0], low + width * p[1]]);
         for space in SPACES() {
             prove(&space, some.positions().iter().map(|p| [0.5 * p[0], p[1]])).unwrap();
@@ -204,7 +204,7 @@ mod tests {
 
     #[test]
     fn a_broken_mesh_is_found_out() {
-        let mut mesh = prove(&SPACES()[0], white(SPACES()[0], 50, 1).unwrap().positions().iter().copied()).unwrap();
+        let mut mesh = prove(&SPACES()[0], white(&SPACES()[0], 50, 1).unwrap().positions().iter().copied()).unwrap();
         let whole = mesh.clone();
         mesh.half_edges.twin.swap(0, 1);
         assert!(mesh.check().unwrap_err().contains("no twins"));
@@ -234,7 +234,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(200))]
         #[test]
         fn nasty_sets_are_proved_or_refused(points in prop::collection::vec([nasty(), nasty()], 3..40), which in 0..4usize) {
-            let space = SPACES()[which];
+            let space = &SPACES()[which];
             let domain = space.domain();
             let mut positions: Vec<DVec2> = points.into_iter().map(|p| domain.land(DVec2::from(p) * domain.size)).collect();
             let order = separate(&domain, &mut positions, 0.1).order;
@@ -246,7 +246,7 @@ mod tests {
 
         #[test]
         fn points_anywhere_are_wrapped_into_the_torus(x in -1e6..1e6f64, y in -1e6..1e6f64) {
-            let space = SPACES()[1];
+            let space = &SPACES()[1];
             let points = PointSet::new(space, vec![[x, y]]).unwrap();
             let [p] = points.positions() else { panic!() };
             prop_assert!(p[0] >= -3.0 && p[0] < 97.0 && p[1] >= 7.0 && p[1] < 8.0);

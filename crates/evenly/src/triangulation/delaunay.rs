@@ -18,7 +18,7 @@ pub(crate) fn delaunay(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> 
 /// Triangulates the convex hull: quickly, if that can be proved to be a triangulation, and then by Lawson's flips; otherwise exactly.
 pub(super) fn hull(domain: &Domain, points: Vec<DVec2>, order: Vec<u32>) -> Result<Triangulation, Error> {
     let half_edges = plane::nearly_delaunay(plane::shaken(domain, &points).into_iter()).filtered(|_, t| Some(smallest(t)));
-    let mut triangulation = Triangulation { half_edges, positions: points, domain: *domain, copies: [1, 1], order };
+    let mut triangulation = Triangulation { half_edges, positions: points, domain: domain.clone(), copies: [1, 1], order };
     if triangulation.half_edges.n_triangles() > 0 && triangulation.check().is_ok() {
         triangulation.legalize();
         return Ok(triangulation);

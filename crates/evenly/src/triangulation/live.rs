@@ -55,7 +55,7 @@ impl LiveMesh {
         let Triangulation { half_edges, positions, domain, copies, order } = triangulation;
         Ok(Self {
             mesh: SharedMesh::new(&half_edges, &positions),
-            base: *base,
+            base: base.clone(),
             domain,
             copies,
             order,
@@ -78,8 +78,8 @@ impl LiveMesh {
         let mesh = SharedMesh::new(&planar.half_edges, &planar.positions);
         Ok(Self {
             mesh,
-            base: *base,
-            domain: *base,
+            base: base.clone(),
+            domain: base.clone(),
             copies: [1, 1],
             n_live: planar.positions.len() as u32,
             spacing,
@@ -182,6 +182,11 @@ impl LiveMesh {
         }
     }
 
+    /// Says that all points must be looked at again.
+    pub fn soil_all(&self) {
+        (0..self.n_points() as u32).for_each(|v| self.soil(v));
+    }
+
     pub fn clean(&self, v: u32) {
         self.mesh.set_dirty(v, false);
     }
@@ -264,7 +269,7 @@ impl LiveMesh {
         Triangulation {
             half_edges: self.mesh.half_edges(),
             positions: (0..self.mesh.n_vertices() as u32).map(|v| self.mesh.position(v)).collect(),
-            domain: self.domain,
+            domain: self.domain.clone(),
             copies: self.copies,
             order: self.order.clone(),
         }

@@ -76,8 +76,8 @@ impl LiveMesh {
         if let Some(held) = &self.held {
             return self.domain.land(held.land(point, from, q));
         }
-        let place = self.domain.land(q);
-        self.field.as_ref().map_or(place, |field| self.domain.land(field.settle(place)))
+        let place = self.domain.walk(from, q);
+        self.field.as_ref().map_or(place, |field| self.domain.walk(place, field.settle(place)))
     }
 
     /// Moves a vertex to its target, or as far as it gets.

@@ -10,16 +10,22 @@ use super::half_edges::{BORDER, next};
 use super::held::Held;
 use super::live::{LEAST_DENSITY, LiveMesh, Outside};
 use super::shared::Territory;
+use super::sight::{Moments, Sight};
 use super::spoke::{MIRROR, Spoke};
 use super::walls::WallCell;
 use crate::density::Field;
 use crate::error::Error;
+use crate::space::Border;
 use crate::star::{Senses, Star, Wall, Wedge};
 
 /// The fewest points that a thread looks at in one go.
 const CHUNK: usize = 1 << 12;
 /// The corners of cells are looked at up to so many times the longest spoke.
 const FAR: f64 = 16.0;
+/// By how much more than others the area of a cell may be off that a polygon's border cuts: in its nooks it must.
+const LEEWAY: f64 = 0.25;
+/// So many points are looked at, at most, for those that stand in for hidden neighbours.
+const MOST_SEEN: usize = 400;
 /// Where the sum of two cotangents is less than this much of its terms, exact arithmetic decides on its sign.
 const DOUBT: f64 = 1e-9;
 
@@ -38,10 +44,14 @@ pub(crate) struct StarBuffer {
     /// The spokes of a vertex that moves.
     pub(super) moving: Vec<Spoke>,
     /// The vertices around one.
-    near: Vec<u32>,
+    pub near: Vec<u32>,
     wall_cell: WallCell,
+    /// What is seen of a cell that a polygon's border cuts; nothing of others.
+    pub sight: Sight,
     /// The corners of a cell.
     corners: Vec<DVec2>,
+    /// The mean density along the sides of what is seen of it.
+    seen_sides: Vec<f64>,
 }
 
 impl StarBuffer {
@@ -56,6 +66,11 @@ impl LiveMesh {
     pub fn read(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         self.restore(v, territory, &mut buffer.spokes, &mut buffer.n_flips)?;
         self.fill(v, buffer);
+        if let Some(border) = &self.domain.border
+            && !self.is_clear(border, v, buffer)
+        {
+            self.fill_within(border, v, territory, buffer)?;
+        }
         if let Some(field) = &self.field {
             self.weigh(field, v, buffer);
         }
@@ -65,8 +80,14 @@ impl LiveMesh {
         Ok(())
     }
 
+    /// The squared distance of a place that the vertex `v` sees to the nearest point that sees it, of those that were looked at for the star of `v`.
+    pub fn distance_to_seeing(&self, v: u32, near: &[u32], place: DVec2) -> f64 {
+        let others = near.iter().map(|&other| self.position(other)).filter(|&other| self.domain.sees(other, place));
+        others.chain([self.position(v)]).map(|other| other.distance_squared(place)).fold(f64::INFINITY, f64::min)
+    }
+
     /// Looks at the stars of all points, in order.
-    pub fn look<T: Send>(&mut self, senses: Senses, look: impl Fn(&mut Star, &[Spoke]) -> T + Sync) -> Result<Vec<T>, Error> {
+    pub fn look<T: Send>(&mut self, senses: Senses, look: impl Fn(&Self, u32, &mut StarBuffer) -> T + Sync) -> Result<Vec<T>, Error> {
         self.legalize();
         if self.mend()? {
             self.legalize();
@@ -78,7 +99,7 @@ impl LiveMesh {
             |buffer, v| {
                 // With everything free, nothing lies outside.
                 let _ = mesh.read(v, Territory::EVERYTHING, buffer);
-                look(&mut buffer.star, &buffer.spokes)
+                look(mesh, v, buffer)
             },
         );
         Ok(seen.collect())
@@ -86,7 +107,7 @@ impl LiveMesh {
 
     /// The smallest distance of two points and the largest circumradius, in spacings.
     pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
-        let seen = self.look(Senses::default(), |star, _| {
+        let seen = self.look(Senses::default(), |_, _, StarBuffer { star, .. }| {
             let neighbours = star.lengths.iter().zip(&star.is_mirror).filter(|(_, is_mirror)| !**is_mirror);
             let nearest = neighbours.map(|(&length, _)| length).fold(f64::INFINITY, f64::min);
             [nearest, (0..star.n_spokes()).map(|k| star.circumradius(k)).fold(0.0, f64::max)]
@@ -105,7 +126,7 @@ impl LiveMesh {
 
     /// Lays out the star of `v`, which has just been read, and the stars of its neighbours.
     pub fn look_around(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        let StarBuffer { star, moving, near, n_flips, .. } = buffer;
+        let StarBuffer { star, spokes, moving, near, n_flips, .. } = buffer;
         self.walk(v, territory, moving)?;
         near.clear();
         near.extend(moving.iter().map(|spoke| spoke.vertex));
@@ -123,13 +144,17 @@ impl LiveMesh {
         self.walk(v, territory, moving)?;
         let is_in_ring = |other: u32| other == v || moving.iter().any(|spoke| spoke.vertex == other);
         let (at, scale) = (self.mesh.position(v), 1.0 / self.spacing);
-        let place = |other: u32| (other < self.n_live).then(|| scale * self.spoke(at, other));
+        let is_seen = |other: u32| other < self.n_live && self.domain.sees(at, self.mesh.position(other));
+        let place = |other: u32| is_seen(other).then(|| scale * self.spoke(at, other));
         star.ring.clear();
         star.ring.extend(moving.iter().filter_map(|spoke| place(spoke.vertex)));
         star.beyond.clear();
         star.beyond.extend(near.iter().filter(|&&other| !is_in_ring(other)).filter_map(|&other| place(other)));
         star.walls.clear();
-        if !self.domain.is_periodic {
+        if self.domain.border.is_some() {
+            let walls = spokes.iter().filter(|spoke| spoke.vertex == MIRROR);
+            star.walls.extend(walls.map(|spoke| Wall { normal: spoke.way.normalize_or_zero(), distance: 0.5 * spoke.length }));
+        } else if !self.domain.is_periodic {
             let (low, high) = (scale * at, scale * (self.domain.size - at));
             let walls = [(DVec2::NEG_X, low.x), (DVec2::NEG_Y, low.y), (DVec2::X, high.x), (DVec2::Y, high.y)];
             star.walls.extend(walls.map(|(normal, distance)| Wall { normal, distance }));
@@ -194,7 +219,8 @@ impl LiveMesh {
 
     /// Turns the spokes in the buffer into a star; near a wall that of the cell which the walls clip.
     fn fill(&self, v: u32, buffer: &mut StarBuffer) {
-        let StarBuffer { star, spokes, wall_cell, .. } = buffer;
+        let StarBuffer { star, spokes, wall_cell, sight, .. } = buffer;
+        sight.outline.clear();
         let scale = 1.0 / self.spacing;
         star.clear();
         star.lengths.extend(spokes.iter().map(|spoke| spoke.squared.sqrt() * scale));
@@ -212,7 +238,7 @@ impl LiveMesh {
         }
         if self.held.is_some() {
             close(star, spokes);
-        } else if !self.domain.is_periodic {
+        } else if !self.domain.is_periodic && self.domain.border.is_none() {
             let at = self.mesh.position(v);
             let wall = at.min(self.domain.size - at).min_element() * scale;
             let is_clear = spokes.iter().zip(0..).all(|(spoke, k)| spoke.vertex < self.n_live && star.is_covered(k, wall));
@@ -222,6 +248,71 @@ impl LiveMesh {
                 wall_cell.fill(star, spokes, scale);
             }
         }
+    }
+}
+
+impl LiveMesh {
+    /// Whether nothing of a border is so near to a point that its star could be another there, and none of its neighbours is the frame's.
+    fn is_clear(&self, border: &Border, v: u32, buffer: &mut StarBuffer) -> bool {
+        let StarBuffer { star, spokes, sight, .. } = buffer;
+        let at = self.mesh.position(v);
+        let reach = (0..star.n_spokes()).map(|k| star.lengths[k].max(star.circumradius(k))).fold(0.0, f64::max) * self.spacing;
+        spokes.iter().all(|spoke| spoke.vertex < self.n_live) && (border.clearance(at) > reach || sight.is_alone(at, reach, border))
+    }
+
+    /// Turns the spokes in the buffer into the star of what is seen of the cell in a polygon.
+    fn fill_within(&self, border: &Border, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        let StarBuffer { star, spokes, wall_cell, sight, near, moving, .. } = buffer;
+        let at = self.mesh.position(v);
+        near.clear();
+        near.extend(spokes.iter().map(|spoke| spoke.vertex).filter(|&vertex| vertex < self.n_live));
+        let seen = |&vertex: &u32| {
+            let place = self.mesh.position(vertex);
+            border.sees(at, place).then_some((vertex, place - at))
+        };
+        let n_seen = near.iter().filter_map(seen).count();
+        wall_cell.clip(at, self.domain.size, near.iter().filter_map(seen));
+        let mut is_less = sight.look(at, wall_cell, border);
+        if n_seen < spokes.len() {
+            // Where neighbours are hidden, others stand in for them: from ring to ring.
+            near.push(v);
+            let mut ring = 0..near.len() - 1;
+            while !ring.is_empty() && near.len() < MOST_SEEN {
+                let reach = 2.0 * sight.reach();
+                let is_near = |vertex: u32| self.mesh.position(vertex).distance_squared(at) < reach * reach;
+                let end = near.len();
+                for k in ring {
+                    if is_near(near[k]) {
+                        self.walk(near[k], territory, moving)?;
+                        for other in moving.iter().map(|spoke| spoke.vertex) {
+                            if other < self.n_live && !near.contains(&other) {
+                                near.push(other);
+                            }
+                        }
+                    }
+                }
+                ring = end..near.len();
+                let mut is_cut = false;
+                for (other, way) in near[ring.clone()].iter().filter(|&&other| is_near(other)).filter_map(seen) {
+                    wall_cell.cut(other, way);
+                    is_cut = true;
+                }
+                if is_cut {
+                    is_less = sight.look(at, wall_cell, border);
+                }
+            }
+        }
+        if is_less || n_seen < spokes.len() {
+            let scale = 1.0 / self.spacing;
+            sight.cell.fill(star, spokes, scale);
+            // What is seen may be less than the hull that the star shows.
+            let Moments { area, centroid, .. } = sight.moments();
+            (star.metric.mass, star.metric.centroid) = (Some(area * scale * scale), Some(centroid * scale));
+            star.leeway = LEEWAY;
+        } else {
+            sight.outline.clear();
+        }
+        Ok(())
     }
 }
 
@@ -264,7 +355,7 @@ impl LiveMesh {
 
     /// Finds what the star's lengths, radii and area are in the measure of the density.
     fn weigh(&self, field: &Field, v: u32, buffer: &mut StarBuffer) {
-        let StarBuffer { star, spokes, senses, corners, .. } = buffer;
+        let StarBuffer { star, spokes, senses, corners, sight, seen_sides, .. } = buffer;
         let at = self.mesh.position(v);
         let n = star.n_spokes();
         // A needle's centre may be anywhere, and the way there endless. Cells of points that are spread at all have none so far away.
@@ -309,11 +400,14 @@ impl LiveMesh {
             }
         }
         let unit = 1.0 / (self.spacing * self.spacing);
+        let is_hull = !sight.outline.is_empty();
         if senses.centroid {
-            let (mass, centroid) = field.centroid(at, corners);
+            let (mass, centroid) = field.centroid(at, if is_hull { &sight.outline } else { corners });
             (star.metric.mass, star.metric.centroid) = (Some(mass * unit), Some(centroid / self.spacing));
         } else if senses.mass {
-            star.metric.mass = Some(field.mass(at, corners, &mut star.metric.sides) * unit);
+            let of_corners = field.mass(at, corners, &mut star.metric.sides);
+            let mass = if is_hull { field.mass(at, &sight.outline, seen_sides) } else { of_corners };
+            star.metric.mass = Some(mass * unit);
         }
         let density = match star.metric.mass {
             Some(mass) => mass / star.measure_cell().max(f64::MIN_POSITIVE),
@@ -343,7 +437,7 @@ mod tests {
     fn the_stars_of_all_points_show_what_is_measured() {
         for space in spaces() {
             for (n, is_warped) in [(3, false), (10, false), (300, false), (300, true), (5000, true)] {
-                let mut points = white(space, n, 3).unwrap();
+                let mut points = white(&space, n, 3).unwrap();
                 if is_warped {
                     warp(&mut points);
                 }

@@ -166,11 +166,14 @@ impl LiveMesh {
                 let twin = self.mesh.twin(3 * triangle + k as u32);
                 (triangle, corner, way) = (twin / 3, twin as usize % 3, ways[(k + 1) % 3]);
             } else {
-                // In a rectangle the triangle may lie outside.
-                let is_periodic = self.domain.is_periodic;
-                let inwards = if is_periodic { (ways[0] + ways[1] + ways[2]) / 3.0 } else { 0.5 * self.domain.size - place };
+                // In a rectangle the triangle may lie outside; in a polygon the middle may as well.
+                let inwards = match (&self.domain.border, self.domain.is_periodic) {
+                    (Some(_), _) => self.spacing * DVec2::from_angle(step as f64),
+                    (None, true) => (ways[0] + ways[1] + ways[2]) / 3.0,
+                    (None, false) => 0.5 * self.domain.size - place,
+                };
                 let inwards = inwards.clamp_length_max(self.spacing);
-                let nudged = self.domain.land(place + NUDGE * (1.0 + step as f64) * inwards);
+                let nudged = self.domain.walk(place, place + NUDGE * (1.0 + step as f64) * inwards);
                 (corner, way) = (0, ways[0] - self.domain.spoke(place, nudged));
                 place = nudged;
             }

@@ -8,20 +8,20 @@ use crate::star::{Star, Wedge};
 
 /// A cell clipped by walls, everything relative to its vertex: a polygon, counter-clockwise.
 #[derive(Default)]
-pub(super) struct WallCell {
-    sides: Vec<Side>,
+pub(crate) struct WallCell {
+    pub(super) sides: Vec<Side>,
     clipped: Vec<Side>,
 }
 
 /// A side of the cell, and the corner with which it begins.
 #[derive(Clone, Copy)]
-struct Side {
-    corner: DVec2,
+pub(super) struct Side {
+    pub corner: DVec2,
     /// On whose bisector it lies, and the way there; never zero, also where the vertex is on a wall.
-    vertex: u32,
-    way: DVec2,
+    pub vertex: u32,
+    pub way: DVec2,
     /// The unit vector there.
-    direction: DVec2,
+    pub direction: DVec2,
 }
 
 impl WallCell {
@@ -47,7 +47,7 @@ impl WallCell {
     }
 
     /// Cuts off what is nearer to a neighbour.
-    fn cut(&mut self, vertex: u32, way: DVec2) {
+    pub fn cut(&mut self, vertex: u32, way: DVec2) {
         let half = 0.5 * way.length_squared();
         let excess = |corner: DVec2| corner.dot(way) - half;
         self.clipped.clear();

@@ -115,10 +115,21 @@ impl Gaps {
             let [a, b] = star.centre(k);
             a * spokes[k].way + b * spokes[star.after(k)].way
         };
+        let at = self.mesh.position(v);
+        let domain = self.mesh.domain();
+        if domain.border.is_some() {
+            // Of what is seen, the farthest place.
+            let farthest = self.buffer.sight.outline.iter().copied().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+            let place = domain.walk(at, at + farthest.unwrap_or_default());
+            // Who is hidden from here may be near to there.
+            let others = self.buffer.near.iter().map(|&other| self.mesh.position(other).distance_squared(place));
+            let squared = if place == at { NONE } else { others.fold(place.distance_squared(at), f64::min) };
+            return Gap { place, triangle: self.mesh.triangle_at(v), squared };
+        }
         let on_walls = (0..star.n_spokes()).filter(|&k| star.is_mirror[k] || star.is_mirror[star.after(k)]).map(corner);
         let farthest = on_walls.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
         let (place, squared) = farthest.map_or((DVec2::ZERO, NONE), |corner| (corner, corner.length_squared()));
-        Gap { place: self.mesh.position(v) + place, triangle: self.mesh.triangle_at(v), squared }
+        Gap { place: at + place, triangle: self.mesh.triangle_at(v), squared }
     }
 
     /// The largest of the gaps where `missing` has been taken out.
@@ -204,7 +215,7 @@ impl Gaps {
             let corners = in_mesh().flat_map(|&triangle| self.mesh.corners(triangle));
             corners.map(|v| domain.spoke(place, self.mesh.position(v)).length_squared()).fold(f64::INFINITY, f64::min)
         };
-        let beyond = domain.land(from + relaxation * way);
+        let beyond = domain.walk(from, from + relaxation * way);
         if nearest(beyond) >= nearest(from) { beyond } else { to }
     }
 }

@@ -179,7 +179,7 @@ impl Mesh {
     pub fn undo_inverted(&mut self) -> usize {
         let mut inverted: Vec<u32> = self.inverted.iter().flatten().copied().collect();
         let (n_base, n_vertices) = (self.triangulation.n_base(), self.triangulation.positions.len());
-        let domain = self.triangulation.domain;
+        let domain = self.triangulation.domain.clone();
         let mut n_undone = 0;
         while !inverted.is_empty() {
             let mut touched = Vec::new();

@@ -86,7 +86,7 @@ fn equalize(star: &mut Star, tolerance: f64, relaxation: f64) -> bool {
     let area = star.measure_cell();
     let mass = star.metric.mass.unwrap_or(area);
     let excess = mass / MEAN_CAPACITY - 1.0;
-    if excess.abs() <= tolerance {
+    if excess.abs() <= tolerance + star.leeway {
         return false;
     }
     let Star { lengths, sides, is_mirror, metric, .. } = star;

@@ -43,7 +43,7 @@ impl Cells {
         around.sort_by_key(|[x, y]| x * x + y * y);
         let around = around.into_iter().map(|[x, y]| x + y * stride as isize).collect();
         let (points, clocks) = (vec![DVec2::NAN; n_cells], vec![f32::INFINITY; n_cells]);
-        Self { domain: *domain, side, n_own, margin, stride, points, clocks, around }
+        Self { domain: domain.clone(), side, n_own, margin, stride, points, clocks, around }
     }
 
     /// The cells of the domain, row by row.
@@ -94,7 +94,8 @@ impl Cells {
         for [x, y] in BESIDE {
             let to_far_side = (centre + DVec2::new(x as f64, y as f64) * self.side - point).abs() + half;
             let beside = (cell as isize + x + y * self.stride as isize) as usize;
-            if to_far_side.length_squared() <= coverage && self.clocks[beside] < f32::INFINITY {
+            let is_seen = self.domain.border.as_ref().is_none_or(|border| border.clearance(point) * border.clearance(point) > coverage);
+            if is_seen && to_far_side.length_squared() <= coverage && self.clocks[beside] < f32::INFINITY {
                 self.set_clock(self.original(beside), f32::INFINITY);
             }
         }
@@ -116,18 +117,19 @@ impl Cells {
     /// The copies of a cell of the domain, and the periods to them.
     #[inline]
     fn copies(&self, cell: usize) -> impl Iterator<Item = (usize, DVec2)> + use<> {
-        let &Self { domain, n_own, margin, stride, .. } = self;
+        let &Self { n_own, margin, stride, .. } = self;
+        let (is_periodic, size) = (self.domain.is_periodic, self.domain.size);
         let place = self.place(cell);
         // In periods, from the first copy beyond the near side to the last beyond the far one.
         let periods = |axis: usize| {
             let [n, margin] = [n_own[axis], margin[axis]].map(|n| n as isize);
-            if domain.is_periodic { -((place[axis] + margin) / n)..=(n + margin - 1 - place[axis]) / n } else { 0..=0 }
+            if is_periodic { -((place[axis] + margin) / n)..=(n + margin - 1 - place[axis]) / n } else { 0..=0 }
         };
         let (columns, rows) = (periods(0), periods(1));
         let all = rows.flat_map(move |y| columns.clone().map(move |x| [x, y])).filter(|&periods| periods != [0, 0]);
         all.map(move |[x, y]| {
             let by = x * n_own[0] as isize + y * (n_own[1] * stride) as isize;
-            ((cell as isize + by) as usize, DVec2::new(x as f64, y as f64) * domain.size)
+            ((cell as isize + by) as usize, DVec2::new(x as f64, y as f64) * size)
         })
     }
 }

@@ -1,0 +1,85 @@
+//! [`Region`]: the inside of a polygon, as a domain for points.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use serde::Serialize;
+use serde::ser::SerializeStruct as _;
+
+use super::border::Border;
+use super::{Domain, Rectangle, ulp};
+
+/// What the rings of a [`Polygon`](crate::Polygon) enclose, its border included; `Space::from(&polygon)` makes one. Cheap to clone.
+#[derive(Debug, Clone)]
+pub struct Region(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    frame: Rectangle,
+    rings: Vec<Vec<[f64; 2]>>,
+    area: f64,
+    /// In normalised coordinates: triangles that fill it, and what is around them.
+    triangles: Vec<[DVec2; 3]>,
+    border: Arc<Border>,
+}
+
+impl Region {
+    /// The inside of rings in input units, given in normalised coordinates as well: by triangles that fill it, and by segments with the inside on their left.
+    pub(crate) fn new(
+        frame: Rectangle,
+        rings: Vec<Vec<[f64; 2]>>,
+        area: f64,
+        triangles: Vec<[DVec2; 3]>,
+        segments: Vec<[DVec2; 2]>,
+    ) -> Self {
+        let domain = Domain::new(frame.origin, frame.size, false);
+        let rounding = (0..2).map(|axis| ulp(frame.origin[axis].abs().max((frame.origin[axis] + frame.size[axis]).abs())));
+        let unit = domain.restore_length(1.0);
+        let border = Border::new(segments, domain.size, area / unit / unit, 2.0 * rounding.fold(0.0, f64::max) / unit);
+        Self(Arc::new(Inner { frame, rings, area, triangles, border: Arc::new(border) }))
+    }
+
+    /// The rings, in input units, without a closing point: the inside is on their left.
+    pub fn rings(&self) -> &[Vec<[f64; 2]>] {
+        &self.0.rings
+    }
+
+    /// The area inside, in input units squared.
+    pub fn area(&self) -> f64 {
+        self.0.area
+    }
+
+    /// The smallest rectangle around it.
+    pub fn frame(&self) -> &Rectangle {
+        &self.0.frame
+    }
+
+    /// Triangles that fill it, in normalised coordinates.
+    pub(crate) fn triangles(&self) -> &[[DVec2; 3]] {
+        &self.0.triangles
+    }
+
+    pub(super) fn domain(&self) -> Domain {
+        let Rectangle { origin, size } = self.0.frame;
+        Domain::new(origin, size, false).within(Arc::clone(&self.0.border))
+    }
+}
+
+impl PartialEq for Region {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self.0.rings == other.0.rings
+    }
+}
+
+/// The rings stay where they came from.
+impl Serialize for Region {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut region = serializer.serialize_struct("Region", 5)?;
+        region.serialize_field("origin", &self.0.frame.origin)?;
+        region.serialize_field("size", &self.0.frame.size)?;
+        region.serialize_field("area", &self.0.area)?;
+        region.serialize_field("n_rings", &self.0.rings.len())?;
+        region.serialize_field("n_corners", &self.0.rings.iter().map(Vec::len).sum::<usize>())?;
+        region.end()
+    }
+}
