@@ -13,6 +13,8 @@
 
 mod cells;
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use self::cells::Cells;
@@ -20,7 +22,7 @@ use super::eliminate::eliminate;
 use super::point_set::{MAX_POINTS, PointSet};
 use super::random::Random;
 use crate::error::Error;
-use crate::space::{Domain, GRID, Space, snap};
+use crate::space::{Border, Domain, GRID, Space, snap};
 
 /// What [`poisson_disk`] can be told.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,7 +179,7 @@ struct Darts {
 const SMALLEST: f64 = 1e-13;
 /// The last level whose squares are kept: they are eight in a row.
 const KEPT: u8 = 3;
-/// From this level on a square is seen by whom its centre is seen.
+/// From this level on a square is what its centre is: outside, or seen by who sees that. In passages that are narrower there may be no points.
 const FINE: u8 = 6;
 /// So often another place is tried before a point is put where the dart fell.
 const TRIES: usize = 100;
@@ -208,7 +210,7 @@ impl Darts {
         };
         for cell in darts.cells.own() {
             let corner = darts.cells.corner(cell);
-            let is_outside = darts.is_outside(corner + 0.5 * darts.cells.side, 0.5 * darts.cells.side);
+            let is_outside = darts.is_outside(corner + 0.5 * darts.cells.side, 0.5 * darts.cells.side, 0);
             darts.wind(cell, 0.0, if is_outside { 0.0 } else { 1.0 });
         }
         darts
@@ -269,16 +271,19 @@ impl Darts {
         snap(square + 0.5 * self.side(level) * DVec2::new(x, self.random.signed()))
     }
 
-    /// Whether all of a square lies beyond a border.
-    fn is_outside(&self, centre: DVec2, half: DVec2) -> bool {
-        self.cells.domain.border.as_ref().is_some_and(|border| border.is_outside(centre - half, centre + half))
+    /// Whether all of a square lies beyond a border; of a small one its centre.
+    fn is_outside(&self, centre: DVec2, half: DVec2, level: u8) -> bool {
+        let is = |border: &Arc<Border>| {
+            if level >= FINE { !border.contains(snap(centre)) } else { border.is_outside(centre - half, centre + half) }
+        };
+        self.cells.domain.border.as_ref().is_some_and(is)
     }
 
     /// Whether a point sees a square: all of it, or of a small one what matters.
     fn is_seen(&self, point: DVec2, centre: DVec2, half: DVec2, level: u8) -> bool {
         self.cells.domain.border.as_ref().is_none_or(|border| {
             let is_open = !border.reaches(point.min(centre - half), point.max(centre + half));
-            is_open || level >= FINE && (!border.contains(centre) || border.sees(point, centre))
+            is_open || level >= FINE && border.sees(point, centre)
         })
     }
 
@@ -367,7 +372,7 @@ impl Darts {
                 let centre = square + by * half;
                 let is_covered = |near: &DVec2| ((*near - centre).abs() + half).length_squared() <= self.coverage;
                 let is_seen = |near: &&DVec2| self.is_seen(**near, centre, half, level);
-                if !self.near.iter().filter(|near| is_covered(near)).any(|near| is_seen(&near)) && !self.is_outside(centre, half) {
+                if !self.near.iter().filter(|near| is_covered(near)).any(|near| is_seen(&near)) && !self.is_outside(centre, half, level) {
                     self.divided.push(centre);
                 }
             }
