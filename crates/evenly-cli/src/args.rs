@@ -10,7 +10,7 @@ use crate::mesh_args::Mesh;
 use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
 use crate::parse::{parse_count, parse_format};
-use crate::shared_args::{DensityArgs, DrawArg, LongArgs, SpaceArgs};
+use crate::shared_args::{DensityArgs, DrawArg, FixedArg, LongArgs, SpaceArgs};
 use crate::stipple_args::Stipple;
 
 const EXAMPLES: &str = "\
@@ -83,6 +83,8 @@ pub struct Generate {
     #[command(flatten)]
     pub density: DensityArgs,
     #[command(flatten)]
+    pub fixed: FixedArg,
+    #[command(flatten)]
     pub optimizer: OptimizerArgs,
     #[command(flatten)]
     pub starts: StartArgs,
@@ -105,6 +107,8 @@ pub struct Optimize {
     pub space: SpaceArgs,
     #[command(flatten)]
     pub density: DensityArgs,
+    #[command(flatten)]
+    pub fixed: FixedArg,
     #[command(flatten)]
     pub optimizer: OptimizerArgs,
     #[command(flatten)]

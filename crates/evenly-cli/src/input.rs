@@ -1,5 +1,6 @@
 //! Points from a file or stdin, brought into a domain.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
@@ -36,4 +37,16 @@ pub fn read(input: &Path, space: &Space) -> anyhow::Result<(PointSet, Option<Str
 fn is_outside(space: &Space, p: &[f64; 2]) -> bool {
     let (origin, size) = (space.origin(), space.size());
     (0..2).any(|axis| p[axis] < origin[axis] || p[axis] > origin[axis] + size[axis])
+}
+
+/// Points that stay, and after them the others that do not share a place with one.
+pub fn joined(fixed: &PointSet, points: PointSet) -> anyhow::Result<PointSet> {
+    if fixed.n_points() == 0 {
+        return Ok(points);
+    }
+    let bits = |p: &[f64; 2]| p.map(|x| (x + 0.0).to_bits());
+    let taken: HashSet<[u64; 2]> = fixed.positions().iter().map(bits).collect();
+    let others = points.positions().iter().filter(|p| !taken.contains(&bits(p)));
+    let all = fixed.positions().iter().chain(others).copied().collect();
+    Ok(PointSet::new(points.space(), all)?.with_fixed(fixed.n_points())?)
 }

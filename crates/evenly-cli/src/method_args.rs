@@ -5,7 +5,8 @@ use clap::{Args, ValueEnum};
 use evenly::{
     CANDIDATES_A_POINT, CapacityParams, CvtParams, DartParams, Density, DistMeshParams, Error, FarthestPointParams, LloydParams,
     MAX_POINTS, Mode, OptBetaParams, PointSet, PoissonDiskParams, ProcrustesParams, PushPullParams, PushPullPreset, Schedule, Space,
-    WellSpacedParams, dart, eliminate, hexagonal, jittered, poisson_disk_by_density, poisson_disk_of_density, white_by_density,
+    WellSpacedParams, dart, eliminate, hexagonal, jittered, poisson_disk_around, poisson_disk_by_density, poisson_disk_of_density,
+    white_by_density,
 };
 
 use crate::method::Method;
@@ -227,14 +228,7 @@ impl OptimizerArgs {
 
 impl StartArgs {
     /// Makes points by a method that is no optimiser, and says what the user should know.
-    pub fn make(
-        &self,
-        method: Method,
-        space: &Space,
-        density: &Density,
-        n_points: Option<usize>,
-        seed: u64,
-    ) -> anyhow::Result<(PointSet, Option<String>)> {
+    pub fn make(&self, method: Method, fixed: &PointSet, n_points: Option<usize>, seed: u64) -> anyhow::Result<(PointSet, Option<String>)> {
         if self.spacing.is_some() && n_points.is_some() {
             bail!("--spacing and --n-points exclude each other: how many points fit is chance");
         }
@@ -242,37 +236,60 @@ impl StartArgs {
             bail!("--spacing or --n-points is missing: how near to each other, or how many?");
         }
         match (method, n_points) {
-            (Method::PoissonDisk, _) => self.poisson_disk(space, density, n_points, seed),
-            (Method::Dart, _) => {
+            (Method::PoissonDisk, _) if fixed.n_points() == 0 || fixed.density().is_uniform() => self.poisson_disk(fixed, n_points, seed),
+            (Method::Dart, _) if fixed.n_points() == 0 => {
                 let mut params = DartParams { n_points, spacing: self.spacing, seed, ..DartParams::default() };
                 set(&mut params.tries, self.tries);
-                Ok((dart(space, &params).map_err(by_flag)?, None))
+                Ok((dart(fixed.space(), &params).map_err(by_flag)?, None))
             }
-            (_, Some(n)) => Ok((start(method, space, density, n, seed)?, None)),
+            (_, Some(n)) => Ok((start_around(fixed, method, n, seed)?, None)),
+            (_, None) if self.spacing.is_some() => {
+                bail!("--fixed goes with --spacing for poisson-disk without a density alone; give --n-points")
+            }
             (_, None) => bail!("--n-points is missing: how many?"),
         }
     }
 
-    fn poisson_disk(
-        &self,
-        space: &Space,
-        density: &Density,
-        n_points: Option<usize>,
-        seed: u64,
-    ) -> anyhow::Result<(PointSet, Option<String>)> {
-        let estimated = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(space, n_points.unwrap_or(1)) };
+    fn poisson_disk(&self, fixed: &PointSet, n_points: Option<usize>, seed: u64) -> anyhow::Result<(PointSet, Option<String>)> {
+        let estimated = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(fixed.space(), n_points.unwrap_or(1)) };
         let params = self.spacing.map_or(estimated, |spacing| PoissonDiskParams { spacing, ..estimated });
-        let points = poisson_disk_by_density(space, density, &PoissonDiskParams { coverage: self.coverage, ..params }).map_err(by_flag)?;
+        let params = PoissonDiskParams { coverage: self.coverage, ..params };
+        let points = if fixed.density().is_uniform() {
+            poisson_disk_around(fixed, &params).map_err(by_flag)?
+        } else {
+            poisson_disk_by_density(fixed.space(), fixed.density(), &params).map_err(by_flag)?
+        };
         let note = n_points.filter(|&n| n != points.n_points()).map(|n| {
             let why = match self.coverage {
                 Some(_) => "with a wider coverage fewer points are needed",
-                None if n < points.n_points() / 2 && density.is_uniform() => "on so narrow a torus the spacing cannot be wider",
+                None if n < points.n_points() / 2 && fixed.density().is_uniform() => "on so narrow a torus the spacing cannot be wider",
                 None => "a maximal set's number of points is chance",
             };
             format!("{why}: {} for {n}, with a spacing of {:.6e}", points.n_points(), params.spacing)
         });
         Ok((points, note))
     }
+}
+
+/// As [`start`], in the space of points that stay, which are among them and come first.
+pub fn start_around(fixed: &PointSet, method: Method, n_points: usize, seed: u64) -> anyhow::Result<PointSet> {
+    let (space, density, n_fixed) = (fixed.space(), fixed.density(), fixed.n_points());
+    if n_fixed == 0 {
+        return Ok(start(method, space, density, n_points, seed)?);
+    }
+    if n_points < n_fixed {
+        bail!("--n-points is {n_points}, but {n_fixed} points stay: they are among them");
+    }
+    let with = |others: PointSet| {
+        let all = fixed.positions().iter().chain(others.positions()).copied().collect();
+        PointSet::new(space, all)?.with_density(density).with_fixed(n_fixed)
+    };
+    Ok(match method {
+        _ if n_points == n_fixed => with(PointSet::new(space, Vec::new())?)?,
+        Method::White | Method::Jittered => with(start(method, space, density, n_points - n_fixed, seed)?)?,
+        // Those go that crowd around the ones that stay.
+        _ => eliminate(&with(start(method, space, density, n_points, seed)?)?, n_points)?,
+    })
 }
 
 /// Exactly so many points for an optimiser to begin with.

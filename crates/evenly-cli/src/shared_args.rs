@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::bail;
+use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
-use evenly::{Density, Rectangle, Space, Torus};
-use evenly_io::{Draw, Photograph, Tone, read_polygon};
+use evenly::{Density, PointSet, Rectangle, Space, Torus};
+use evenly_io::{Draw, Photograph, Tone, read_polygon, read_positions};
 
 use crate::talk::say;
 
@@ -33,6 +33,28 @@ pub struct DensityArgs {
     /// For all methods but opt-beta, cvt, farthest-point, dart, jittered and hexagonal.
     #[arg(long, value_name = "FILE[:HOW]", value_parser = parse_density, allow_hyphen_values = true)]
     density: Option<DensitySpec>,
+}
+
+#[derive(Args)]
+pub struct FixedArg {
+    /// Points that stay where they are, as .txt, .csv or .npy: among the others, and first in the output
+    #[arg(long, value_name = "FILE")]
+    fixed: Option<PathBuf>,
+}
+
+impl FixedArg {
+    /// The points that stay; none, if none are given.
+    pub fn points(&self, space: Space) -> anyhow::Result<PointSet> {
+        let Some(path) = &self.fixed else { return Ok(PointSet::new(space, Vec::new())?) };
+        let positions = read_positions(path)?;
+        let n_fixed = positions.len();
+        let points = PointSet::new(space, positions).and_then(|points| points.with_fixed(n_fixed));
+        points.with_context(|| path.display().to_string())
+    }
+
+    pub fn path(&self) -> Option<&PathBuf> {
+        self.fixed.as_ref()
+    }
 }
 
 /// A picture, and what is made of its tones.

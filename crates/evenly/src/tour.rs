@@ -42,7 +42,7 @@ pub fn tour(points: &PointSet) -> Vec<usize> {
         return (0..positions.len()).collect();
     }
     let spacing = domain.hex_spacing(positions.len());
-    let order = separate(&domain, &mut positions, spacing).order;
+    let order = separate(&domain, &mut positions, 0, spacing).order;
     let places: Vec<DVec2> = order.iter().map(|&index| positions[index as usize]).collect();
     let mut found = Tour::new(&domain, places);
     found.shorten();

@@ -8,13 +8,13 @@ use clap::ArgMatches;
 use crate::args::Generate;
 use crate::input;
 use crate::method::{Method, refuse_others_flags};
-use crate::method_args::start;
+use crate::method_args::start_around;
 use crate::session::Session;
 
 pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     refuse_others_flags(&[args.method], flags)?;
     let space = args.space.space()?;
-    input::require_one_stdin(args.density.path().into_iter().chain(args.space.path()))?;
+    input::require_one_stdin(args.density.path().into_iter().chain(args.space.path()).chain(args.fixed.path()))?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, Some(args.seed))?;
     let begin = args.start.unwrap_or(args.method.default_start(&space));
@@ -22,15 +22,16 @@ pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
         begin.require_density()?;
     }
     let density = session.time("read", || args.density.density())?;
+    let fixed = args.fixed.points(space)?.with_density(&density);
     match optimizer {
         Some(optimizer) => {
             let n_points = args.n_points.context("--n-points is missing: how many?")?;
-            let points = session.time("start", || start(begin, &space, &density, n_points, args.seed))?;
+            let points = session.time("start", || start_around(&fixed, begin, n_points, args.seed))?;
             // Only white noise has long density waves.
             session.optimize(points, args.method, optimizer, begin == Method::White && !args.optimizer.no_warp)
         }
         None => {
-            let (points, note) = session.time("start", || args.starts.make(args.method, &space, &density, args.n_points, args.seed))?;
+            let (points, note) = session.time("start", || args.starts.make(args.method, &fixed, args.n_points, args.seed))?;
             if let Some(note) = note {
                 session.note(note);
             }

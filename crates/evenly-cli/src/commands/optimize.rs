@@ -15,8 +15,10 @@ pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     let space = args.space.space()?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, None)?;
-    input::require_one_stdin(std::iter::once(&args.input).chain(args.density.path()).chain(args.space.path()))?;
+    input::require_one_stdin(std::iter::once(&args.input).chain(args.density.path()).chain(args.space.path()).chain(args.fixed.path()))?;
+    let fixed = args.fixed.points(space.clone())?;
     let (points, note) = session.time("read", || input::read(&args.input, &space))?;
+    let points = input::joined(&fixed, points)?;
     let mut points = points.with_density(&session.time("read", || args.density.density())?);
     if let Some(note) = note {
         session.note(note);

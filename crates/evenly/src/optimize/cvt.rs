@@ -126,15 +126,15 @@ impl State {
         /// The energy of a cell of the hexagonal lattice: 5 / (24 sqrt(3)).
         const HEXAGON: f64 = 0.120_281_306_081_232_4;
         let scale = 1.0 / mesh.spacing();
-        let cells = mesh.look(Senses::default(), |_, _, StarBuffer { star, spokes, sight, .. }| {
+        let cells = mesh.look(Senses::default(), |mesh, v, StarBuffer { star, spokes, sight, .. }| {
             if !sight.outline.is_empty() {
                 let Moments { area, centroid, second } = sight.moments();
-                return (second * scale.powi(4), area * scale * scale, centroid);
+                return (second * scale.powi(4), area * scale * scale, mesh.along(v, centroid));
             }
             star.find_centroid();
             let to_centroid: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
             let energy = star.second_moment();
-            (energy, star.measure_cell(), to_centroid)
+            (energy, star.measure_cell(), mesh.along(v, to_centroid))
         })?;
         let n = cells.len() as f64;
         Ok(Self {

@@ -35,7 +35,7 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
     run.enter(Phase::Separate);
     let (domain, mut positions) = points.normalized();
     let spacing = domain.hex_spacing(positions.len());
-    let separated = separate(&domain, &mut positions, spacing);
+    let separated = separate(&domain, &mut positions, points.n_fixed(), spacing);
     report.coincident_points = separated.coincident_points;
     report.was_collinear = separated.was_collinear;
     let order = separated.order;
@@ -51,7 +51,7 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
 pub(super) fn triangulated(points: &PointSet, report: &mut Report, run: &mut RunContext) -> Result<Option<(Domain, LiveMesh)>, Error> {
     let Some(Prepared { domain, spacing, positions, order, field }) = prepare(points, report, run)? else { return Ok(None) };
     run.enter(Phase::Triangulate);
-    let mesh = LiveMesh::new(&domain, field, positions, order, spacing)?;
+    let mesh = LiveMesh::new(&domain, field, positions, order, spacing)?.with_fixed(points.n_fixed());
     report.triangulations = 1;
     run.enter(Phase::Optimize);
     Ok(Some((domain, mesh)))
@@ -92,7 +92,7 @@ pub(super) fn keep_distinct(points: &mut PointSet) {
     let spacing = domain.hex_spacing(positions.len());
     // By more than rounding can take back.
     let resolution = points.space().resolution() * spacing / points.hex_spacing();
-    let (_, coincident_points) = make_distinct(&domain, &mut positions, spacing.max(1e4 * resolution));
+    let (_, coincident_points) = make_distinct(&domain, &mut positions, points.n_fixed(), spacing.max(1e4 * resolution));
     if coincident_points > 0 {
         let all: Vec<u32> = (0..positions.len() as u32).collect();
         points.place(&domain, &all, &positions);

@@ -135,7 +135,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         report.notes.push("the rectangle is less than three spacings wide: it is nearly all border, and points are less even there".into());
     }
     if has_border {
-        triangulation = border::settle(triangulation, spacing)?;
+        triangulation = border::settle(triangulation, points.n_fixed(), spacing)?;
         report.triangulations += 1;
     }
     run.enter(Phase::Optimize);
@@ -144,7 +144,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         longest: LARGEST_SIDE * spacing,
         field: field.map(|field| SoftField::new(&field, &domain, SOFTNESS * spacing)),
     };
-    let mut mesh = Mesh::new(triangulation, sides);
+    let mut mesh = Mesh::new(triangulation, sides, points.n_fixed());
 
     // Step 1, match.
     let mut energy = mesh.flip_and_match(false).energy / mesh.area();
@@ -172,7 +172,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
 
         let is_settling = has_border && REBUILDS.contains(&report.iterations);
         if is_settling {
-            mesh = mesh.rebuilt(|old| border::resettle(old, spacing))?;
+            mesh = mesh.rebuilt(points.n_fixed(), |old| border::resettle(old, points.n_fixed(), spacing))?;
             matched = mesh.flip_and_match(false);
             report.triangulations += 1;
         }

@@ -295,6 +295,13 @@ pub(super) fn push_and_pull(
             report.outcome = Outcome::Converged;
         }
     }
+    if report.outcome == Outcome::Converged
+        && points.n_fixed() > 0
+        && measure(points).is_ok_and(|measures| !params.unmet(&measures).is_empty())
+    {
+        report.outcome = Outcome::IterationLimit;
+        report.notes.push("points that stay where they are keep the targets from being reached".into());
+    }
     if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
         report.outcome = Outcome::LostToRounding;
         report

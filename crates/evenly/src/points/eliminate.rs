@@ -29,10 +29,10 @@ const GAMMA: f64 = 1.5;
 /// Odd, so that no two numbers have the same multiple in 32 bits; their order is about random.
 const SPREAD: u32 = 0x9e37_79b1;
 
-/// `n_points` of the `candidates`, spread evenly, in progressive order.
+/// `n_points` of the `candidates`, spread evenly, in progressive order; those that stay are among them, and come first.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] for no points, or more than there are candidates.
+/// [`Error::InvalidParameter`] for no points, for more than there are candidates, and for fewer than stay.
 ///
 /// # Example
 /// ```
@@ -46,28 +46,30 @@ const SPREAD: u32 = 0x9e37_79b1;
 /// ```
 pub fn eliminate(candidates: &PointSet, n_points: usize) -> Result<PointSet, Error> {
     let n_candidates = candidates.n_points();
-    if n_points == 0 || n_points > n_candidates {
-        let expected = "1 or more, and at most the number of candidates";
+    let n_fixed = candidates.n_fixed();
+    if n_points == 0 || n_points > n_candidates || n_points < n_fixed {
+        let expected = "1 or more, at least the number of points that stay, and at most that of candidates";
         return Err(Error::InvalidParameter { name: "n_points", value: n_points.to_string(), expected });
     }
     let (domain, places) = candidates.normalized();
     let mut left = hilbert_order(&places, domain.size);
     let field = candidates.field(&domain);
-    let thin = |left: &mut Vec<u32>, n_points: usize| thin(&domain, field.as_ref(), &places, left, n_points);
+    let thin = |left: &mut Vec<u32>, n_points: usize| thin(&domain, field.as_ref(), (&places, n_fixed), left, n_points);
     let _ = thin(&mut left, n_points);
     // From the last place to the first: half of what is left goes, and stands behind what stays.
     let mut order = Vec::with_capacity(n_points);
-    while left.len() > 1 {
-        let n_half = left.len() / 2;
+    while left.len() > n_fixed.max(1) {
+        let n_half = (left.len() / 2).max(n_fixed);
         order.extend(thin(&mut left, n_half));
     }
-    order.extend(left);
-    let positions = order.iter().rev().map(|&index| candidates.positions()[index as usize]).collect();
-    Ok(PointSet::new(candidates.space(), positions)?.with_density(candidates.density()))
+    order.extend(left.into_iter().filter(|&index| index as usize >= n_fixed));
+    let others = order.iter().rev().map(|&index| candidates.positions()[index as usize]);
+    let positions = candidates.positions()[..n_fixed].iter().copied().chain(others).collect();
+    PointSet::new(candidates.space(), positions)?.with_density(candidates.density()).with_fixed(n_fixed)
 }
 
-/// Takes points out until `n_points` are left; returns them in the order in which they went.
-fn thin(domain: &Domain, field: Option<&Field>, places: &[DVec2], left: &mut Vec<u32>, n_points: usize) -> Vec<u32> {
+/// Takes points out, none of the first `n_fixed`, until `n_points` are left; returns them in the order in which they went.
+fn thin(domain: &Domain, field: Option<&Field>, (places, n_fixed): (&[DVec2], usize), left: &mut Vec<u32>, n_points: usize) -> Vec<u32> {
     // Twice the paper's r_max and r_min. A row of points has another spacing, and room enough to need no r_min.
     let (spacing, of_row) = (domain.hex_spacing(n_points), domain.size.max_element() / n_points as f64);
     let farthest = spacing.max(of_row);
@@ -84,7 +86,8 @@ fn thin(domain: &Domain, field: Option<&Field>, places: &[DVec2], left: &mut Vec
     // Weights only fall, so what is on top with a weight that is not its own any more goes back down.
     // Equal weights go in no order of place.
     let key = |weight: f64, k: u32| ((weight.max(0.0) + 0.0).to_bits(), k.wrapping_mul(SPREAD), k);
-    let mut heap: BinaryHeap<_> = weights.iter().zip(0..).map(|(&weight, k)| key(weight, k)).collect();
+    let candidates = weights.iter().zip(0..).filter(|&(_, k)| left[k as usize] as usize >= n_fixed);
+    let mut heap: BinaryHeap<_> = candidates.map(|(&weight, k)| key(weight, k)).collect();
     let mut gone = Vec::with_capacity(left.len() - n_points);
     while gone.len() < left.len() - n_points
         && let Some(top) = heap.pop()

@@ -23,7 +23,7 @@ pub use hexagonal::hexagonal;
 pub use jittered::jittered;
 pub(crate) use order::hilbert_order;
 pub use point_set::{MAX_POINTS, PointSet};
-pub use poisson_disk::{PoissonDiskParams, poisson_disk, poisson_disk_of};
+pub use poisson_disk::{PoissonDiskParams, poisson_disk, poisson_disk_around, poisson_disk_of};
 pub(crate) use random::Random;
 pub(crate) use separate::{make_distinct, separate};
 pub use varying_disk::{poisson_disk_by_density, poisson_disk_of_density};

@@ -10,12 +10,13 @@ use crate::space::{Domain, Space};
 /// The largest number of points: half-edges are counted in 32 bits, also on a finite cover of a torus.
 pub const MAX_POINTS: usize = 40_000_000;
 
-/// Points, the domain they live in, and the density that is wanted there; all finite, all inside.
+/// Points, the domain they live in, and the density that is wanted there; all finite, all inside. Some may be told to stay where they are.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointSet {
     space: Space,
     density: Density,
     positions: Vec<[f64; 2]>,
+    n_fixed: usize,
 }
 
 impl PointSet {
@@ -48,7 +49,29 @@ impl PointSet {
                 return Err(Error::OutsideDomain { index, point: at, domain: space.to_string() });
             }
         }
-        Ok(Self { space, density: Density::uniform(), positions })
+        Ok(Self { space, density: Density::uniform(), positions, n_fixed: 0 })
+    }
+
+    /// The same points, of which the first `n_fixed` stay where they are, whatever method runs: the others find their places around them.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] where there are not so many points, and where two of those that stay share a place.
+    pub fn with_fixed(self, n_fixed: usize) -> Result<Self, Error> {
+        let invalid = |value: String, expected| Err(Error::InvalidParameter { name: "n_fixed", value, expected });
+        let Some(fixed) = self.positions.get(..n_fixed) else {
+            return invalid(n_fixed.to_string(), "at most the number of points");
+        };
+        let mut places: Vec<[u64; 2]> = fixed.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();
+        places.sort_unstable();
+        if let Some([x, y]) = places.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0].map(f64::from_bits)) {
+            return invalid(format!("{n_fixed}, with two points at ({x}, {y})"), "of points that have a place each");
+        }
+        Ok(Self { n_fixed, ..self })
+    }
+
+    /// How many points stay where they are: the first.
+    pub fn n_fixed(&self) -> usize {
+        self.n_fixed
     }
 
     /// The same points where another density is wanted: methods and measures will go by it. Uniform at first.
@@ -92,13 +115,13 @@ impl PointSet {
     /// A set of points that lie in the normalised domain by construction.
     pub(crate) fn from_normalized(space: Space, positions: impl Iterator<Item = DVec2>) -> Self {
         let domain = space.domain();
-        Self { space, density: Density::uniform(), positions: positions.map(|q| domain.restore(domain.land(q))).collect() }
+        Self { space, density: Density::uniform(), n_fixed: 0, positions: positions.map(|q| domain.restore(domain.land(q))).collect() }
     }
 
-    /// Moves point `order[k]` to `positions[k]`, or to the nearest place where the density is not 0.
+    /// Moves point `order[k]` to `positions[k]`, unless it is one that stays, or to the nearest place where the density is not 0.
     pub(crate) fn place(&mut self, domain: &Domain, order: &[u32], positions: &[DVec2]) {
         let field = self.field(domain);
-        for (&index, &q) in order.iter().zip(positions) {
+        for (&index, &q) in order.iter().zip(positions).filter(|(index, _)| **index as usize >= self.n_fixed) {
             self.positions[index as usize] = domain.restore(field.as_ref().map_or(q, |field| domain.walk(q, field.settle(q))));
         }
     }

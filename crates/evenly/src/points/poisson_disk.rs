@@ -13,6 +13,7 @@
 
 mod cells;
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -117,16 +118,34 @@ pub(super) fn rounding_margin(space: &Space, spacing: f64) -> f64 {
 /// # Ok::<(), evenly::Error>(())
 /// ```
 pub fn poisson_disk(space: impl Into<Space>, params: &PoissonDiskParams) -> Result<PointSet, Error> {
-    let space = space.into();
-    params.validate(&space)?;
-    let domain = space.domain();
-    let mut darts = Darts::new(&space, &domain, params);
+    poisson_disk_around(&PointSet::new(space, Vec::new())?, params)
+}
+
+/// As [`poisson_disk`], in the space of points that are there already, and stay: they come first.
+///
+/// # Errors
+/// As there; [`Error::InvalidParameter`] also for a spacing that is more than the distance of two of these points.
+pub fn poisson_disk_around(points: &PointSet, params: &PoissonDiskParams) -> Result<PointSet, Error> {
+    let space = points.space();
+    params.validate(space)?;
+    let (domain, fixed) = points.normalized();
+    let mut darts = Darts::new(space, &domain, params);
+    for &point in &fixed {
+        darts.put_fixed(point)?;
+    }
     for cell in darts.cells.own() {
         darts.finish(cell);
     }
     let cells = &darts.cells;
-    let points = cells.own().map(|cell| cells.points[cell]).filter(|point| !point.is_nan());
-    Ok(PointSet::from_normalized(space, points))
+    let taken: HashSet<[u64; 2]> = fixed.iter().map(|point| point.to_array().map(f64::to_bits)).collect();
+    let others = points_in(cells).filter(|point| !taken.contains(&point.to_array().map(f64::to_bits)));
+    let others = PointSet::from_normalized(space.clone(), others);
+    let all = points.positions().iter().chain(others.positions()).copied().collect();
+    PointSet::new(space, all)?.with_density(points.density()).with_fixed(points.n_points())
+}
+
+fn points_in(cells: &Cells) -> impl Iterator<Item = DVec2> {
+    cells.own().map(|cell| cells.points[cell]).filter(|point| !point.is_nan())
 }
 
 /// Exactly `n_points` points that are a maximal Poisson-disk sample but for a few gaps: of a slightly denser one those go that are most crowded.
@@ -151,6 +170,8 @@ pub fn poisson_disk_of(space: impl Into<Space>, n_points: usize, seed: u64) -> R
 /// The state of a sampling.
 struct Darts {
     cells: Cells,
+    /// In input units.
+    spacing: f64,
     /// How often each cell's squares have been divided.
     levels: Vec<u8>,
     /// The squares that no disk covered when they were divided last, a bit each, in rows of eight; of a level beyond [`KEPT`], those of that one.
@@ -195,6 +216,7 @@ impl Darts {
         let n_cells = cells.points.len();
         let mut darts = Self {
             cells,
+            spacing: params.spacing,
             levels: vec![0; n_cells],
             squares_kept: vec![1; n_cells],
             areas: vec![1.0; n_cells],
@@ -214,6 +236,20 @@ impl Darts {
             darts.wind(cell, 0.0, if is_outside { 0.0 } else { 1.0 });
         }
         darts
+    }
+
+    /// Puts a point where it is.
+    fn put_fixed(&mut self, point: DVec2) -> Result<(), Error> {
+        let cell = self.cells.at(point);
+        if !self.cells.points[cell].is_nan() || !self.is_farther(cell, point, self.conflict) {
+            return Err(Error::InvalidParameter {
+                name: "spacing",
+                value: self.spacing.to_string(),
+                expected: "at most the distance of points that stay",
+            });
+        }
+        self.cells.put(point, self.coverage);
+        Ok(())
     }
 
     /// Throws darts at a cell until it is covered, and at those around it as their time comes.

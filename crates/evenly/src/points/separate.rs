@@ -20,27 +20,27 @@ const JITTER: f64 = 1e-3;
 
 /// Gives every point a place of its own by a deterministic jitter, and spreads collinear points over a bounded domain.
 ///
-/// `spacing` is the hexagonal spacing in normalised units. All other points stay where they are.
-pub(crate) fn separate(domain: &Domain, positions: &mut [DVec2], spacing: f64) -> Separated {
+/// `spacing` is the hexagonal spacing in normalised units. The first `n_fixed` points, of which no two coincide, and all others stay where they are.
+pub(crate) fn separate(domain: &Domain, positions: &mut [DVec2], n_fixed: usize, spacing: f64) -> Separated {
     let was_collinear = !domain.is_periodic && are_collinear(positions);
     if was_collinear {
         let mut random = Random::new(0, 6);
-        for p in &mut *positions {
+        for p in &mut positions[n_fixed..] {
             *p = jitter(domain, *p, JITTER * spacing, &mut random);
         }
     }
-    let (order, coincident_points) = make_distinct(domain, positions, spacing);
+    let (order, coincident_points) = make_distinct(domain, positions, n_fixed, spacing);
     Separated { order, coincident_points, was_collinear }
 }
 
 /// Gives every point a place of its own; returns the Hilbert order, and how many points had none.
-pub(crate) fn make_distinct(domain: &Domain, positions: &mut [DVec2], spacing: f64) -> (Vec<u32>, usize) {
+pub(crate) fn make_distinct(domain: &Domain, positions: &mut [DVec2], n_fixed: usize, spacing: f64) -> (Vec<u32>, usize) {
     let mut random = Random::new(0, 2);
     let mut coincident_points = None;
     let mut amount = JITTER * spacing;
     loop {
         let order = hilbert_order(positions, domain.size);
-        let doubles = coincident(positions, &order);
+        let doubles = coincident(positions, &order, n_fixed);
         let coincident_points = *coincident_points.get_or_insert(doubles.len());
         if doubles.is_empty() {
             return (order, coincident_points);
@@ -57,8 +57,9 @@ fn jitter(domain: &Domain, p: DVec2, amount: f64, random: &mut Random) -> DVec2 
     domain.walk(p, p + amount * DVec2::new(x, random.signed()))
 }
 
-/// All points but the first at each place that is taken more than once.
-fn coincident(positions: &[DVec2], order: &[u32]) -> Vec<usize> {
+/// All points but one at each place that is taken more than once: but the first there, or the fixed one.
+fn coincident(positions: &[DVec2], order: &[u32], n_fixed: usize) -> Vec<usize> {
     let pairs = order.windows(2).map(|pair| [pair[0] as usize, pair[1] as usize]);
-    pairs.filter(|&[earlier, later]| positions[earlier] == positions[later]).map(|[_, later]| later).collect()
+    let doubles = pairs.filter(|&[earlier, later]| positions[earlier] == positions[later]);
+    doubles.map(|[earlier, later]| if later < n_fixed { earlier } else { later }).collect()
 }

@@ -237,7 +237,7 @@ mod tests {
             let space = &SPACES()[which];
             let domain = space.domain();
             let mut positions: Vec<DVec2> = points.into_iter().map(|p| domain.land(DVec2::from(p) * domain.size)).collect();
-            let order = separate(&domain, &mut positions, 0.1).order;
+            let order = separate(&domain, &mut positions, 0, 0.1).order;
             match delaunay(&domain, sorted(&positions, &order), order) {
                 Ok(triangulation) => prop_assert_eq!(triangulation.check_delaunay(), Ok(())),
                 Err(error) => prop_assert!(!space.is_periodic(), "{}", error),

@@ -34,6 +34,8 @@ pub(crate) struct LiveMesh {
     pub(super) spacing: f64,
     /// The density, where it varies.
     pub(super) field: Option<Field>,
+    /// Which points stay where they are; empty if none does.
+    fixed: Vec<bool>,
     /// What holds the points of a mesh with a border.
     pub(super) held: Option<Held>,
     /// Whether a point and its copies have gone different ways, or the cover has become too small.
@@ -62,6 +64,7 @@ impl LiveMesh {
             n_live: (positions.len() - n_frame) as u32,
             spacing,
             field,
+            fixed: Vec::new(),
             held: None,
             is_torn: AtomicBool::new(false),
         })
@@ -84,16 +87,34 @@ impl LiveMesh {
             n_live: planar.positions.len() as u32,
             spacing,
             field: None,
+            fixed: Vec::new(),
             held: Some(Held::new(bonds, &planar)),
             is_torn: AtomicBool::new(false),
             order: planar.source,
         })
     }
 
+    /// The same, of which the caller's first `n_fixed` points stay where they are.
+    pub fn with_fixed(mut self, n_fixed: usize) -> Self {
+        if n_fixed > 0 {
+            self.fixed = self.order.iter().map(|&index| (index as usize) < n_fixed).collect();
+        }
+        self
+    }
+
+    /// Whether a point stays where it is.
+    #[inline]
+    pub fn is_fixed(&self, point: u32) -> bool {
+        self.fixed.get(point as usize).is_some_and(|&is| is)
+    }
+
     /// The same points, put at `places` and triangulated anew. Where that cannot be, all stays as it was.
     pub fn rebuild(&mut self, places: Vec<DVec2>) -> Result<(), Error> {
         *self = match &self.held {
-            None => Self::new(&self.base, self.field.clone(), places, self.order.clone(), self.spacing)?,
+            None => {
+                let rebuilt = Self::new(&self.base, self.field.clone(), places, self.order.clone(), self.spacing)?;
+                Self { fixed: std::mem::take(&mut self.fixed), ..rebuilt }
+            }
             Some(held) => {
                 let bonds = held.bonds();
                 let mut points = vec![DVec2::ZERO; bonds.tracks.len()];
@@ -142,13 +163,16 @@ impl LiveMesh {
         self.held.as_ref().map(|held| (held.bonds(), &held.source[..]))
     }
 
-    /// Whether there are borders, and points that cannot go everywhere.
+    /// Whether there are points that cannot go everywhere.
     pub fn holds_points(&self) -> bool {
-        self.held.is_some()
+        self.held.is_some() || !self.fixed.is_empty()
     }
 
     /// The part of a move that a point can make.
     pub fn along(&self, point: u32, by: DVec2) -> DVec2 {
+        if self.is_fixed(point) {
+            return DVec2::ZERO;
+        }
         self.held.as_ref().map_or(by, |held| held.along(point, by))
     }
 
@@ -278,7 +302,7 @@ impl LiveMesh {
     /// Proves what the mesh claims to be, but for the Delaunay property.
     pub fn check(&self) -> Result<(), String> {
         let triangulation = self.triangulation();
-        if self.holds_points() { triangulation.check_bounded() } else { triangulation.check() }
+        if self.held.is_some() { triangulation.check_bounded() } else { triangulation.check() }
     }
 
     /// The positions of the points.

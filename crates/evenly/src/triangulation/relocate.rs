@@ -27,6 +27,9 @@ impl LiveMesh {
     /// Where that reaches out of the territory, some of the way may have been made.
     pub fn relocate(&self, point: u32, by: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         debug_assert!(self.is_free(point, territory));
+        if self.is_fixed(point) {
+            return Ok(());
+        }
         let from = self.mesh.position(point);
         // Where next to no density is wanted, a spacing may be longer than the domain.
         let by = by.clamp(-0.5 * self.domain.size, 0.5 * self.domain.size);
@@ -171,7 +174,7 @@ mod tests {
     fn mesh(space: Space, n: usize, seed: u64) -> LiveMesh {
         let (domain, mut positions) = white(space, n, seed).unwrap().normalized();
         let spacing = domain.hex_spacing(n);
-        let order = separate(&domain, &mut positions, spacing).order;
+        let order = separate(&domain, &mut positions, 0, spacing).order;
         let sorted = order.iter().map(|&index| positions[index as usize]).collect();
         LiveMesh::new(&domain, None, sorted, order, spacing).unwrap()
     }

@@ -221,7 +221,7 @@ mod tests {
                 positions.iter_mut().for_each(|p| *p = domain.land((*p * 8.0).floor() / 8.0 * domain.size));
             }
             let spacing = domain.hex_spacing(n);
-            let order = separate(&domain, &mut positions, spacing).order;
+            let order = separate(&domain, &mut positions, 0, spacing).order;
             let sorted = order.iter().map(|&index| positions[index as usize]).collect();
             let mut mesh = LiveMesh::new(&domain, None, sorted, order, spacing).unwrap();
             let mut random = Random::new(seed, 5);

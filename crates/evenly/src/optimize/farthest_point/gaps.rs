@@ -55,6 +55,9 @@ impl Gaps {
     /// Moves a point to the largest gap that is there without it, of all or of those around it; returns how far it went. On a way through its own
     /// gap it goes `relaxation` times as far, if that brings it no nearer to another point than it was.
     pub fn move_to_farthest(&mut self, point: u32, is_local: bool, relaxation: f64) -> Result<f64, Error> {
+        if self.mesh.is_fixed(point) {
+            return Ok(0.0);
+        }
         let from = self.mesh.position(point);
         self.mesh.take_out(point, &mut self.work);
         if !self.mesh.is_torn() {

@@ -12,6 +12,8 @@ use crate::triangulation::{BORDER, HalfEdges, Triangulation, delaunay, next, pre
 /// Points nearer to a wall than this, in spacings, are either on it or moved away from it.
 const CLEARANCE: f64 = 0.6;
 
+/// A place nearer than this to a point that stays, in spacings, is taken.
+const TAKEN: f64 = 0.3;
 /// The fewest points that can sample a border: one a corner.
 pub(super) const FEWEST: usize = 4;
 
@@ -21,12 +23,18 @@ pub(super) fn is_narrow(size: DVec2, spacing: f64) -> bool {
 }
 
 /// Moves points onto the border: one to each corner, others evenly spaced along the walls; and the rest off it.
-pub(super) fn settle(triangulation: Triangulation, spacing: f64) -> Result<Triangulation, Error> {
+///
+/// The caller's first `n_fixed` points stay; places that they take are theirs.
+pub(super) fn settle(triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
     let size = triangulation.domain.size;
-    let places = places(size, triangulation.positions.len());
-    let chosen = nearest_vertices(&triangulation, &places);
+    let is_fixed: Vec<bool> = triangulation.order.iter().map(|&index| (index as usize) < n_fixed).collect();
+    let fixed = || triangulation.positions.iter().zip(&is_fixed).filter(|(_, is)| **is).map(|(p, _)| p);
+    let mut places = places(size, triangulation.positions.len());
+    places.retain(|place| fixed().all(|p| p.distance(*place) > TAKEN * spacing));
+    places.truncate(is_fixed.len() - n_fixed);
+    let chosen = nearest_vertices(&triangulation, &places, is_fixed.clone());
     let Triangulation { mut positions, domain, order, .. } = triangulation;
-    let mut is_chosen = vec![false; positions.len()];
+    let mut is_chosen = is_fixed;
     for (&vertex, &place) in chosen.iter().zip(&places) {
         positions[vertex as usize] = domain.land(place);
         is_chosen[vertex as usize] = true;
@@ -38,10 +46,10 @@ pub(super) fn settle(triangulation: Triangulation, spacing: f64) -> Result<Trian
 }
 
 /// Makes the triangulation Delaunay again; points that come too near to the border join it, those that crowd on it leave it.
-pub(super) fn resettle(mut triangulation: Triangulation, spacing: f64) -> Result<Triangulation, Error> {
+pub(super) fn resettle(mut triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
     triangulation.legalize();
     let moves = joining(&triangulation).into_iter().chain(leaving(&triangulation, spacing));
-    let moves: Vec<(u32, DVec2)> = moves.collect();
+    let moves: Vec<(u32, DVec2)> = moves.filter(|&(vertex, _)| triangulation.order[vertex as usize] as usize >= n_fixed).collect();
     if moves.is_empty() {
         return Ok(triangulation);
     }
@@ -70,13 +78,12 @@ fn places(size: DVec2, n_points: usize) -> Vec<DVec2> {
 }
 
 /// For each place a vertex of its own near to it.
-fn nearest_vertices(triangulation: &Triangulation, places: &[DVec2]) -> Vec<u32> {
+fn nearest_vertices(triangulation: &Triangulation, places: &[DVec2], mut is_taken: Vec<bool>) -> Vec<u32> {
     let Triangulation { half_edges, positions, .. } = triangulation;
     let outgoing = half_edges.outgoing(positions.len());
     let neighbours =
         |v: u32| half_edges.around(outgoing[v as usize]).flat_map(|h| [half_edges.target(h), half_edges.origin[prev(h) as usize]]);
     let distance = |v: u32, place: DVec2| positions[v as usize].distance_squared(place);
-    let mut is_taken = vec![false; positions.len()];
     let mut at = 0;
     let mut chosen = Vec::with_capacity(places.len());
     for &place in places {

@@ -50,7 +50,8 @@ pub(super) struct Matched {
 }
 
 impl Mesh {
-    pub fn new(mut triangulation: Triangulation, sides: Sides) -> Self {
+    /// A mesh in which the caller's first `n_fixed` points stay.
+    pub fn new(mut triangulation: Triangulation, sides: Sides, n_fixed: usize) -> Self {
         let n_vertices = triangulation.positions.len();
         let chunks = Chunks::new(&triangulation.half_edges, n_vertices);
         let mut mesh = Self {
@@ -58,7 +59,7 @@ impl Mesh {
             velocity: vec![DVec2::ZERO; n_vertices],
             pulls: vec![Pull::default(); n_vertices],
             amplitude: vec![0.0; triangulation.half_edges.n_triangles()],
-            sliders: sliders(&triangulation),
+            sliders: sliders(&triangulation, n_fixed),
             strays: vec![Vec::new(); chunks.n_chunks()],
             inverted: vec![Vec::new(); chunks.n_chunks()],
             crossing: chunks.patches(&mut triangulation.half_edges).iter().map(|patch| patch.crossing().collect()).collect(),
@@ -253,8 +254,8 @@ impl Mesh {
     }
 
     /// The mesh with its triangulation built anew; its vertices keep their numbers and their momentum.
-    pub fn rebuilt(self, rebuild: impl FnOnce(Triangulation) -> Result<Triangulation, Error>) -> Result<Self, Error> {
-        let mut mesh = Self::new(rebuild(self.triangulation)?, self.sides);
+    pub fn rebuilt(self, n_fixed: usize, rebuild: impl FnOnce(Triangulation) -> Result<Triangulation, Error>) -> Result<Self, Error> {
+        let mut mesh = Self::new(rebuild(self.triangulation)?, self.sides, n_fixed);
         mesh.velocity = self.velocity;
         Ok(mesh)
     }
@@ -272,9 +273,10 @@ impl Mesh {
     }
 }
 
-/// Border vertices of a rectangle, with the axes along which they may move.
-fn sliders(triangulation: &Triangulation) -> Vec<(u32, DVec2)> {
-    let Triangulation { half_edges, positions, domain, .. } = triangulation;
+/// Border vertices of a rectangle, with the axes along which they may move, and those that stay.
+fn sliders(triangulation: &Triangulation, n_fixed: usize) -> Vec<(u32, DVec2)> {
+    let Triangulation { half_edges, positions, domain, order, .. } = triangulation;
+    let fixed = (0..).zip(order).filter(|&(_, &index)| (index as usize) < n_fixed).map(|(vertex, _)| (vertex, DVec2::ZERO));
     let border = (0..half_edges.origin.len()).filter(|&h| half_edges.twin[h] == BORDER);
     border
         .map(|h| half_edges.origin[h])
@@ -284,5 +286,6 @@ fn sliders(triangulation: &Triangulation) -> Vec<(u32, DVec2)> {
             (vertex, DVec2::select(is_on_wall, DVec2::ZERO, DVec2::ONE))
         })
         .filter(|&(_, free)| free != DVec2::ONE)
+        .chain(fixed)
         .collect()
 }

@@ -81,12 +81,17 @@ impl Cells {
         others.find(|&other| self.clocks[other] < time && time < f32::INFINITY).map(|other| self.original(other))
     }
 
-    /// Puts a point into its cell; cells beside it that lie within the root of `coverage` of it throw no more darts.
-    pub fn put(&mut self, point: DVec2, coverage: f64) {
-        let [column, row] = (point / self.side).as_uvec2().to_array().map(|n| n as usize);
+    /// The cell that holds a place of the domain.
+    pub fn at(&self, place: DVec2) -> usize {
+        let [column, row] = (place / self.side).as_uvec2().to_array().map(|n| n as usize);
         // On the far side, or next to it, rounding may be one cell off.
         let [column, row] = [column.min(self.n_own[0] - 1), row.min(self.n_own[1] - 1)];
-        let cell = column + self.margin[0] + (row + self.margin[1]) * self.stride;
+        column + self.margin[0] + (row + self.margin[1]) * self.stride
+    }
+
+    /// Puts a point into its cell; cells beside it that lie within the root of `coverage` of it throw no more darts.
+    pub fn put(&mut self, point: DVec2, coverage: f64) {
+        let cell = self.at(point);
         self.points[cell] = point;
         self.copies(cell).for_each(|(copy, period)| self.points[copy] = point + period);
         self.set_clock(cell, f32::INFINITY);
