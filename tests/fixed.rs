@@ -75,9 +75,6 @@ proptest! {
             positions[n - 1] = positions[0];
         }
         for (method, optimize) in OPTIMIZERS {
-            if method == "procrustes" && space.region().is_some() {
-                continue;
-            }
             let mut points = PointSet::new(space, positions.clone()).unwrap().with_fixed(n_fixed).unwrap();
             warp(&mut points);
             optimize(&mut points);

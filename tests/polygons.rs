@@ -6,9 +6,9 @@ mod shapes;
 
 use evenly::{
     CapacityParams, CvtParams, DartParams, DistMeshParams, FarthestPointParams, LloydParams, OptBetaParams, Outcome, PointSet,
-    PoissonDiskParams, Polygon, PushPullParams, PushPullPreset, Rectangle, RunContext, Space, Targets, WellSpacedParams, capacity, cvt,
-    dart, distmesh, eliminate, farthest_point, jittered, lloyd, measure, opt_beta, poisson_disk, poisson_disk_of, push_pull, tessellate,
-    well_spaced, white,
+    PoissonDiskParams, Polygon, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, RunContext, Space, Targets, WellSpacedParams,
+    capacity, cvt, dart, distmesh, eliminate, farthest_point, jittered, lloyd, measure, opt_beta, poisson_disk, poisson_disk_of,
+    procrustes, push_pull, tessellate, well_spaced, white,
 };
 use proptest::prelude::*;
 
@@ -20,7 +20,10 @@ fn space(rings: &[Ring]) -> Space {
 
 /// The optimisers, quick ones.
 type Optimize = fn(&mut PointSet, &mut RunContext) -> Outcome;
-const OPTIMIZERS: [(&str, Optimize); 8] = [
+const OPTIMIZERS: [(&str, Optimize); 9] = [
+    ("procrustes", |points, run| {
+        procrustes(points, &ProcrustesParams { max_iterations: 70, ..ProcrustesParams::default() }, run).unwrap().outcome
+    }),
     ("push-pull", |points, run| {
         let params = PushPullParams { max_passes: Some(60), ..PushPullParams::preset(PushPullPreset::Fast) };
         push_pull(points, &params, run).unwrap().outcome

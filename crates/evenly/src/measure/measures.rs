@@ -150,7 +150,7 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
     }
     let density_error = field.and_then(|field| density_error(&domain, &field, points.normalized().1));
 
-    let triangles = triangles::measure(&triangulation);
+    let triangles = triangles::measure(&triangulation)?;
     let n_inner = (sums.n_inner as f64).max(1.0);
     let min_distance = if coincident_points > 0 { 0.0 } else { sums.min_distance / spacing };
     let coverage_radius = sums.reach / spacing;

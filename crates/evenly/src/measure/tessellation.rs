@@ -7,11 +7,12 @@ use super::sight::look;
 use super::voronoi::CellReader;
 use crate::error::Error;
 use crate::points::PointSet;
+use crate::triangulation::clipped;
 
 /// A point set's Delaunay triangulation and Voronoi diagram, in input units and in the caller's order of points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tessellation {
-    /// Delaunay triangles as triples of point indices, counter-clockwise; in a rectangle the dual of the clipped Voronoi diagram.
+    /// Delaunay triangles as triples of point indices, counter-clockwise; in a rectangle and in a polygon the dual of the clipped Voronoi diagram.
     pub triangles: Vec<[usize; 3]>,
     /// Corners of each triangle. On a torus the second and third are the images nearest to the first, perhaps outside the domain.
     pub corners: Vec<[[f64; 2]; 3]>,
@@ -40,7 +41,7 @@ pub fn tessellate(points: &PointSet) -> Result<Tessellation, Error> {
         cells: vec![Vec::new(); points.n_points()],
         valence: vec![None; points.n_points()],
     };
-    for corners in triangulation.clipped().triangles() {
+    for corners in clipped(&triangulation)?.triangles() {
         // Of a triangle's copies on a cover, that one counts whose first vertex, in the order of base vertices, is no copy.
         let turned = |k: usize| [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
         let Some(corners) = (0..3).map(turned).min_by_key(|t| t.map(|v| v as usize % n_base)) else { continue };

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use crate::triangulation::{BORDER, HalfEdges, Triangulation};
+use crate::error::Error;
+use crate::triangulation::{BORDER, HalfEdges, Triangulation, clipped};
 
 /// Shapes of some triangles, summed up.
 #[derive(Clone)]
@@ -72,9 +73,9 @@ pub(super) struct TriangleMeasures {
 }
 
 /// The shapes of the triangles whose circumcentre lies in the domain.
-pub(super) fn measure(triangulation: &Triangulation) -> TriangleMeasures {
+pub(super) fn measure(triangulation: &Triangulation) -> Result<TriangleMeasures, Error> {
     let (mut border, mut interior, mut all) = (Shapes::NONE, Shapes::NONE, Shapes::NONE);
-    let clipped = triangulation.clipped();
+    let clipped = clipped(triangulation)?;
     let n_vertices = triangulation.positions.len();
     let is_border = is_on_border(&clipped, n_vertices);
     let mut is_isolated = vec![true; n_vertices];
@@ -86,7 +87,7 @@ pub(super) fn measure(triangulation: &Triangulation) -> TriangleMeasures {
         corners.iter().for_each(|&v| is_isolated[v as usize] = false);
     }
     let isolated_points = is_isolated.into_iter().filter(|&is| is).count();
-    TriangleMeasures { all, border, interior, isolated_points }
+    Ok(TriangleMeasures { all, border, interior, isolated_points })
 }
 
 /// Marks the vertices on the border of a triangulation.

@@ -68,16 +68,6 @@ pub(super) fn require_uniform(points: &PointSet) -> Result<(), Error> {
 }
 
 /// # Errors
-/// [`Error::InvalidParameter`] in a polygon.
-pub(super) fn require_box(points: &PointSet) -> Result<(), Error> {
-    if points.space().region().is_some() {
-        let expected = "a torus or a rectangle for procrustes";
-        return Err(Error::InvalidParameter { name: "space", value: "a polygon".into(), expected });
-    }
-    Ok(())
-}
-
-/// # Errors
 /// [`Error::InvalidParameter`] for no iterations.
 pub(super) fn validate_iterations(iterations: usize) -> Result<(), Error> {
     if iterations == 0 {

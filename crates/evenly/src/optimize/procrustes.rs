@@ -22,9 +22,10 @@ mod model;
 
 use serde::Serialize;
 
+use self::border::Rim;
 use self::mesh::Mesh;
 use self::model::Sides;
-use super::prepare::{Prepared, prepare, require_box};
+use super::prepare::{Prepared, keep_distinct, prepare};
 use crate::density::SoftField;
 use crate::error::Error;
 use crate::points::PointSet;
@@ -96,8 +97,6 @@ const GOOD_SIDES: std::ops::RangeInclusive<f64> = 1.0..=1.625;
 const ROUNDING: f64 = 1e-12;
 /// Where models change size with each move the energy may sway for ever: a run has settled that has found nothing lower in so many iterations.
 const IDLE: usize = 16;
-/// Iterations after which a rectangle's triangulation is built anew, while border points find their place.
-const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 
 /// Optimises `points` in place; their number and order stay.
 ///
@@ -119,7 +118,6 @@ const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 /// ```
 pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
-    require_box(points)?;
     let mut report = Report::new("procrustes", points.n_points());
     if !GOOD_SIDES.contains(&params.side) {
         report.notes.push(format!("side {} is outside [1, 1.625], where triangles keep their shape", params.side));
@@ -130,12 +128,13 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     run.enter(Phase::Triangulate);
     let mut triangulation = delaunay(&domain, positions, order)?;
     report.triangulations = 1;
-    let has_border = !domain.is_periodic && points.n_points() >= border::FEWEST;
-    if !domain.is_periodic && border::is_narrow(domain.size, spacing) {
+    let n_fixed = points.n_fixed();
+    let rim = Rim::of(&domain, points.n_points());
+    if rim != Rim::Polygon && !domain.is_periodic && border::is_narrow(domain.size, spacing) {
         report.notes.push("the rectangle is less than three spacings wide: it is nearly all border, and points are less even there".into());
     }
-    if has_border {
-        triangulation = border::settle(triangulation, points.n_fixed(), spacing)?;
+    if rim != Rim::None {
+        triangulation = rim.settle(triangulation, n_fixed, spacing)?;
         report.triangulations += 1;
     }
     run.enter(Phase::Optimize);
@@ -144,7 +143,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         longest: LARGEST_SIDE * spacing,
         field: field.map(|field| SoftField::new(&field, &domain, SOFTNESS * spacing)),
     };
-    let mut mesh = Mesh::new(triangulation, sides, points.n_fixed());
+    let mut mesh = Mesh::new(triangulation, sides, n_fixed);
 
     // Step 1, match.
     let mut energy = mesh.flip_and_match(false).energy / mesh.area();
@@ -170,9 +169,9 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         report.flips += matched.n_flips;
         report.iterations += 1;
 
-        let is_settling = has_border && REBUILDS.contains(&report.iterations);
+        let is_settling = rim.is_settling(report.iterations);
         if is_settling {
-            mesh = mesh.rebuilt(points.n_fixed(), |old| border::resettle(old, points.n_fixed(), spacing))?;
+            mesh = mesh.rebuilt(n_fixed, |old| rim.resettle(old, n_fixed, spacing))?;
             matched = mesh.flip_and_match(false);
             report.triangulations += 1;
         }
@@ -183,7 +182,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         decay.step(before - energy);
         let fraction = decay.fraction.max(report.iterations as f64 / params.max_iterations as f64);
         run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: Some(energy), stable_share: None, fraction });
-        if decay.has_settled() && (!has_border || REBUILDS.iter().all(|&at| at < report.iterations)) {
+        if decay.has_settled() && rim.has_settled(report.iterations) {
             report.outcome = Outcome::Converged;
             break;
         }
@@ -192,8 +191,14 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     if report.outcome == Outcome::IterationLimit {
         report.notes.push(format!("stopped after {} iterations, before the energy had settled", report.iterations));
     }
-    let (order, positions) = mesh.into_positions(&domain);
+    let (order, mut positions) = mesh.into_positions(&domain);
+    if rim == Rim::Polygon {
+        border::part_crowded(&domain, &mut positions, &order, n_fixed, spacing);
+    }
     points.place(&domain, &order, &positions);
+    if rim == Rim::Polygon {
+        keep_distinct(points);
+    }
     Ok(report)
 }
 

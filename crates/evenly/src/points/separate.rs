@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::bins::Bins;
 use super::order::hilbert_order;
 use super::random::Random;
 use crate::predicates::are_collinear;
@@ -17,6 +18,9 @@ pub(crate) struct Separated {
 
 /// How far points are moved at first, in hexagonal spacings.
 const JITTER: f64 = 1e-3;
+
+/// So often another place is tried for a point that is too near to another.
+const PARTINGS: usize = 20;
 
 /// Gives every point a place of its own by a deterministic jitter, and spreads collinear points over a bounded domain.
 ///
@@ -49,6 +53,24 @@ pub(crate) fn make_distinct(domain: &Domain, positions: &mut [DVec2], n_fixed: u
             positions[index] = jitter(domain, positions[index], amount, &mut random);
         }
         amount *= 2.0;
+    }
+}
+
+/// Moves points away, by half a spacing or so, that are nearer than this part of it to one before them; those that stay do.
+pub(crate) fn part(domain: &Domain, positions: &mut [DVec2], is_fixed: impl Fn(usize) -> bool, nearest: f64, spacing: f64) {
+    let mut random = Random::new(0, 9);
+    let mut bins = Bins::new(domain, nearest * spacing);
+    let (fixed, free): (Vec<usize>, Vec<usize>) = (0..positions.len()).partition(|&k| is_fixed(k));
+    fixed.into_iter().for_each(|k| bins.push(positions[k]));
+    for k in free {
+        for _ in 0..PARTINGS {
+            let at = positions[k];
+            if bins.near(at).all(|(_, way)| way.length() >= nearest * spacing || !domain.sees(at, at + way)) {
+                break;
+            }
+            positions[k] = jitter(domain, at, 0.5 * spacing, &mut random);
+        }
+        bins.push(positions[k]);
     }
 }
 

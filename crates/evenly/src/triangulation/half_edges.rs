@@ -3,6 +3,8 @@
 //! Triangle `t` owns the half-edges `3t`, `3t + 1`, `3t + 2`, in counter-clockwise order. A half-edge knows the vertex it
 //! leaves and the half-edge that runs the other way, in the neighbouring triangle; on a border there is none.
 
+use std::collections::HashMap;
+
 /// The twin of a half-edge on a border.
 pub(crate) const BORDER: u32 = u32::MAX;
 
@@ -120,6 +122,29 @@ impl HalfEdges {
             kept.twin[h] = if slot == BORDER { BORDER } else { kept.leaving(slot, kept.target(h as u32)) };
         }
         kept
+    }
+
+    /// Triangles, counter-clockwise, with borders where none stands on the other side. Of two on the same side of an edge the second is left out.
+    pub fn of_triangles(triangles: impl Iterator<Item = [u32; 3]>) -> Self {
+        let mut all = Self { origin: Vec::new(), twin: Vec::new() };
+        let mut slots: HashMap<[u32; 2], u32> = HashMap::new();
+        for [a, b, c] in triangles {
+            let sides = [[a, b], [b, c], [c, a]];
+            if sides.iter().any(|side| slots.contains_key(side)) {
+                continue;
+            }
+            for side in sides {
+                let h = all.origin.len() as u32;
+                let twin = slots.get(&[side[1], side[0]]).copied().unwrap_or(BORDER);
+                if twin != BORDER {
+                    all.twin[twin as usize] = h;
+                }
+                all.origin.push(side[0]);
+                all.twin.push(twin);
+                slots.insert(side, h);
+            }
+        }
+        all
     }
 
     /// The half-edge of triangle `t` that leaves vertex `v`, one of its corners.

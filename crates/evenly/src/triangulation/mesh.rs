@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::half_edges::{BORDER, HalfEdges, next, prev, smallest};
+use super::half_edges::{BORDER, HalfEdges, next, prev};
 use super::patch::Patch;
 use crate::predicates::is_in_circle;
 use crate::space::Domain;
@@ -35,17 +35,10 @@ impl Triangulation {
         (self.domain.spoke(at(a), at(b)), self.domain.spoke(at(a), at(c)))
     }
 
-    /// The dual of the Voronoi diagram clipped to the domain: the triangles whose circumcentre lies inside; in a polygon those whose
-    /// corners see each other as well. All of them on a torus.
-    pub fn clipped(&self) -> HalfEdges {
-        self.half_edges.filtered(|_, corners| self.has_centre_inside(corners).then_some(smallest(corners)))
-    }
-
-    fn has_centre_inside(&self, corners: [u32; 3]) -> bool {
+    /// Whether the centre of a triangle's circumcircle lies inside.
+    pub(super) fn has_centre_inside(&self, corners: [u32; 3]) -> bool {
         let (u, v) = self.spokes(corners);
-        let [a, b, c] = corners.map(|v| self.positions[v as usize]);
-        let is_seen = || [(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| self.domain.sees(a, b));
-        self.domain.is_periodic || self.domain.contains(a + circumcentre(u, v)) && is_seen()
+        self.domain.contains(self.positions[corners[0] as usize] + circumcentre(u, v))
     }
 
     /// Whether the edge of `h` must be flipped: the vertex across lies inside the circumcircle. Exact; never on a border.

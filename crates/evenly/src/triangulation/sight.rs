@@ -11,6 +11,8 @@ use crate::space::{Border, GRID};
 
 /// Walls are so straight: they stand as much farther out as they must to have all of the hull before them, this part of the cell's radius at most.
 const SMOOTH: f64 = 0.005;
+/// Nothing is farther away than this, in normalised units.
+const FAR: f64 = 4.0;
 /// Places on a side differ from it by this part of the cell's radius at most.
 const ON_SIDE: f64 = 1e-9;
 
@@ -214,7 +216,7 @@ fn nearest(way: DVec2, sides: &[Side], fronts: &[[DVec2; 2]], active: &[u32]) ->
         let across = way.perp_dot(along);
         if across > 0.0 { a.perp_dot(along) / across } else { a.length().min(b.length()) }
     };
-    sides.iter().map(to_side).chain(active.iter().map(to_front)).fold(f64::INFINITY, f64::min)
+    sides.iter().map(to_side).chain(active.iter().map(to_front)).fold(FAR, f64::min)
 }
 
 /// What grows with the angle of a way.

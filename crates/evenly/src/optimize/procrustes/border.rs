@@ -7,25 +7,92 @@
 use glam::DVec2;
 
 use crate::error::Error;
-use crate::triangulation::{BORDER, HalfEdges, Triangulation, delaunay, next, prev};
+use crate::points::part;
+use crate::space::Domain;
+use crate::triangulation::{BORDER, HalfEdges, Triangulation, clipped, delaunay, next, prev};
 
 /// Points nearer to a wall than this, in spacings, are either on it or moved away from it.
 const CLEARANCE: f64 = 0.6;
 
+/// Points of a polygon nearer to each other than this, in spacings, are moved apart.
+const TOO_NEAR: f64 = 0.25;
 /// A place nearer than this to a point that stays, in spacings, is taken.
-const TAKEN: f64 = 0.3;
+const TAKEN: f64 = 1e-6;
 /// The fewest points that can sample a border: one a corner.
-pub(super) const FEWEST: usize = 4;
+const FEWEST: usize = 4;
 
 /// Whether a rectangle is too narrow for points on its border and others inside.
 pub(super) fn is_narrow(size: DVec2, spacing: f64) -> bool {
     size.min_element() < 3.0 * spacing
 }
 
+/// What kind of border there is to see to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Rim {
+    /// None, or too few points for one.
+    None,
+    /// A rectangle's walls.
+    Walls,
+    /// A polygon's, which stops points.
+    Polygon,
+}
+
+/// Iterations after which a rectangle's triangulation is built anew, while border points find their place.
+const REBUILDS: [usize; 4] = [3, 6, 12, 24];
+/// A polygon's is after each so many, until so many have been made; and after each so many more.
+const CUT: usize = 3;
+const LAST_CUT: usize = 60;
+const LATER_CUT: usize = 30;
+
+impl Rim {
+    pub fn of(domain: &Domain, n_points: usize) -> Self {
+        match () {
+            () if domain.border.is_some() => Self::Polygon,
+            () if domain.is_periodic || n_points < FEWEST => Self::None,
+            () => Self::Walls,
+        }
+    }
+
+    /// Makes the triangulation one that ends at the border.
+    pub fn settle(self, triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
+        match self {
+            Self::None => Ok(triangulation),
+            Self::Walls => settle(triangulation, n_fixed, spacing),
+            Self::Polygon => cut_out(triangulation, n_fixed, spacing),
+        }
+    }
+
+    /// Whether the triangulation is built anew after so many iterations.
+    pub fn is_settling(self, iteration: usize) -> bool {
+        match self {
+            Self::None => false,
+            Self::Walls => REBUILDS.contains(&iteration),
+            Self::Polygon => iteration.is_multiple_of(if iteration <= LAST_CUT { CUT } else { LATER_CUT }),
+        }
+    }
+
+    /// Builds the triangulation anew.
+    pub fn resettle(self, triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
+        match self {
+            Self::Walls => resettle(triangulation, n_fixed, spacing),
+            _ => self.settle(triangulation, n_fixed, spacing),
+        }
+    }
+
+    /// Whether the border has found its place after so many iterations.
+    pub fn has_settled(self, iteration: usize) -> bool {
+        match self {
+            Self::None => true,
+            Self::Walls => REBUILDS.iter().all(|&at| at < iteration),
+            Self::Polygon => iteration > LAST_CUT,
+        }
+    }
+}
+
 /// Moves points onto the border: one to each corner, others evenly spaced along the walls; and the rest off it.
 ///
 /// The caller's first `n_fixed` points stay; places that they take are theirs.
-pub(super) fn settle(triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
+fn settle(triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
     let size = triangulation.domain.size;
     let is_fixed: Vec<bool> = triangulation.order.iter().map(|&index| (index as usize) < n_fixed).collect();
     let fixed = || triangulation.positions.iter().zip(&is_fixed).filter(|(_, is)| **is).map(|(p, _)| p);
@@ -45,8 +112,22 @@ pub(super) fn settle(triangulation: Triangulation, n_fixed: usize, spacing: f64)
     delaunay(&domain, positions, order)
 }
 
+/// Moves points of a polygon apart that have come together at its border.
+pub(super) fn part_crowded(domain: &Domain, positions: &mut [DVec2], order: &[u32], n_fixed: usize, spacing: f64) {
+    part(domain, positions, |vertex| (order[vertex] as usize) < n_fixed, TOO_NEAR, spacing);
+}
+
+/// Triangulates anew, and cuts what lies outside of a polygon off: the dual of the clipped Voronoi diagram stays.
+fn cut_out(triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
+    let Triangulation { mut positions, domain, order, .. } = triangulation;
+    part_crowded(&domain, &mut positions, &order, n_fixed, spacing);
+    let mut cut = delaunay(&domain, positions, order)?;
+    cut.half_edges = clipped(&cut)?;
+    Ok(cut)
+}
+
 /// Makes the triangulation Delaunay again; points that come too near to the border join it, those that crowd on it leave it.
-pub(super) fn resettle(mut triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
+fn resettle(mut triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
     triangulation.legalize();
     let moves = joining(&triangulation).into_iter().chain(leaving(&triangulation, spacing));
     let moves: Vec<(u32, DVec2)> = moves.filter(|&(vertex, _)| triangulation.order[vertex as usize] as usize >= n_fixed).collect();
