@@ -101,9 +101,10 @@ impl Method {
         }
     }
 
-    /// Optimisers, then starts.
-    pub fn all_but_warp() -> Vec<Self> {
-        Self::value_variants().iter().copied().filter(|&method| method != Self::Warp).collect()
+    /// All that make points there, optimisers, then starts.
+    pub fn all_in(space: &Space) -> Vec<Self> {
+        let is_there = |method: &Self| *method != Self::Warp && (*method != Hexagonal || space.region().is_none());
+        Self::value_variants().iter().copied().filter(is_there).collect()
     }
 }
 

@@ -16,7 +16,7 @@ pub enum Error {
     /// A point lies outside a bounded domain.
     #[error(
         "point {index} is ({}, {}), outside the domain {domain}; \
-         give a size and an origin that hold it", point[0], point[1]
+         it must hold every point", point[0], point[1]
     )]
     OutsideDomain {
         /// Index of the first such point.

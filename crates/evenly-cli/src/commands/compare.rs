@@ -20,9 +20,9 @@ use crate::{input, interrupt, record, session};
 const SHOWN: usize = 600;
 
 pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
-    let methods = if args.methods.is_empty() { Method::all_but_warp() } else { args.methods.clone() };
-    refuse_others_flags(&methods, flags)?;
     let space = args.space.space()?;
+    let methods = if args.methods.is_empty() { Method::all_in(&space) } else { args.methods.clone() };
+    refuse_others_flags(&methods, flags)?;
     let output = match &args.output {
         Some(path) => Some((Kind::of_path(path)?, Target::any(path, args.run.force)?)),
         None => None,

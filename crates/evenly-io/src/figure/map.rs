@@ -41,6 +41,9 @@ const COLOURS: [&str; 5] = ["#004c7f", "#56b4e9", "#ffffff", "#e69f00", "#9c3d00
 pub(super) fn map(points: &PointSet, layers: &[Draw], most: usize, known: &Tessellated) -> Result<(String, [f64; 2]), Error> {
     let canvas = Canvas::new(points, most);
     let mut svg = String::new();
+    if let Some(region) = points.space().region() {
+        canvas.border(&mut svg, region.rings());
+    }
     let tessellation = if layers.iter().any(|&layer| layer != Draw::Points) { Some(known.of(points)?) } else { None };
     for layer in layers {
         match (layer, tessellation) {
@@ -76,7 +79,9 @@ struct Canvas {
 impl Canvas {
     fn new(points: &PointSet, most: usize) -> Self {
         let space = points.space();
-        let size = seen(space.size(), most as f64 / points.n_points().max(1) as f64);
+        // The corner of a polygon's frame may be empty.
+        let share = if space.region().is_some() { 1.0 } else { most as f64 / points.n_points().max(1) as f64 };
+        let size = seen(space.size(), share);
         let scale = SIDE / size[0].max(size[1]);
         let period = space.size().map(|side| if space.is_periodic() { side * scale } else { 0.0 });
         let margin = if space.is_periodic() || size != space.size() { 0.0 } else { MARGIN };
@@ -108,6 +113,13 @@ impl Canvas {
             }
             svg.push_str("\"/>\n");
         }
+    }
+
+    /// The border of a polygon.
+    fn border(&self, svg: &mut String, rings: &[Vec<[f64; 2]>]) {
+        svg.push_str("<path fill=\"none\" stroke=\"#888888\" stroke-width=\"0.5\" stroke-linejoin=\"round\" d=\"");
+        rings.iter().for_each(|ring| self.outline(svg, ring, [0.0; 2]));
+        svg.push_str("\"/>\n");
     }
 
     fn outlines<'a>(&self, svg: &mut String, polygons: impl Iterator<Item = &'a [[f64; 2]]>, colour: &str) {

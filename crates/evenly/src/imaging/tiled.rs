@@ -11,6 +11,9 @@ pub(super) fn tiled(points: &PointSet, spacing: f64, size: [f64; 2], margin: f64
     if points.n_points() == 0 {
         return Err(Error::Degenerate("there are no points to sample with".into()));
     }
+    if points.space().region().is_some() {
+        return Err(Error::Degenerate("points of a polygon sample no picture; take those of a torus or a rectangle".into()));
+    }
     let (domain, positions) = points.normalized();
     let scale = spacing / (domain.area() / positions.len() as f64).sqrt();
     let period = (domain.size * scale).to_array();

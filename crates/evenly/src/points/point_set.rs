@@ -46,7 +46,7 @@ impl PointSet {
                     *point = domain.restore(domain.normalize(at));
                 }
             } else if !(is_inside(0) && is_inside(1) && domain.holds(at)) {
-                return Err(Error::OutsideDomain { index, point: at, domain: space.to_string() });
+                return Err(Error::OutsideDomain { index, point: at, domain: place_of(&space) });
             }
         }
         Ok(Self { space, density: Density::uniform(), positions, n_fixed: 0 })
@@ -148,4 +148,9 @@ impl PointSet {
         }
         space.require_resolution(n_points)
     }
+}
+
+/// The domain, for a message about a point outside.
+fn place_of(space: &Space) -> String {
+    if space.region().is_some() { format!("of the polygon within {space}") } else { space.to_string() }
 }

@@ -213,7 +213,6 @@ impl Space {
 impl std::fmt::Display for Space {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (origin, size) = (self.origin(), self.size());
-        let of = if self.region().is_some() { "of the polygon in " } else { "" };
-        write!(f, "{of}{} x {} at ({}, {})", size[0], size[1], origin[0], origin[1])
+        write!(f, "{} x {} at ({}, {})", size[0], size[1], origin[0], origin[1])
     }
 }

@@ -22,8 +22,9 @@ use crate::star::{Senses, Star, Wall, Wedge};
 const CHUNK: usize = 1 << 12;
 /// The corners of cells are looked at up to so many times the longest spoke.
 const FAR: f64 = 16.0;
-/// By how much more than others the area of a cell may be off that a polygon's border cuts: in its nooks it must.
+/// By how much more than others the area of a cell may be off that a polygon's border cuts: in its nooks it must. And if its point stays there.
 const LEEWAY: f64 = 0.25;
+const FIXED_LEEWAY: f64 = 1.0;
 /// So many points are looked at, at most, for those that stand in for hidden neighbours.
 const MOST_SEEN: usize = 400;
 /// Where the sum of two cotangents is less than this much of its terms, exact arithmetic decides on its sign.
@@ -70,6 +71,9 @@ impl LiveMesh {
             && !self.is_clear(border, v, buffer)
         {
             self.fill_within(border, v, territory, buffer)?;
+        }
+        if self.is_fixed(v) && buffer.star.is_mirror.contains(&true) {
+            buffer.star.leeway = FIXED_LEEWAY;
         }
         if let Some(field) = &self.field {
             self.weigh(field, v, buffer);
