@@ -26,7 +26,7 @@ fn main() -> ExitCode {
 
 /// The pictures that the README shows, and the papers reproduced.
 fn gallery() -> bool {
-    let pictures: [&[&str]; 12] = [
+    let pictures: [&[&str]; 13] = [
         &["generate", "-n", "10000", "-o", "gallery/points.png"],
         &["generate", "-n", "10000", "--draw", "valence", "-o", "gallery/valence.png"],
         &["generate", "-n", "600", "--space", "rect", "--size", "3,2", "--draw", "delaunay,points", "-o", "gallery/rectangle.png"],
@@ -59,6 +59,19 @@ fn gallery() -> bool {
             "4mm",
             "-o",
             "gallery/torus.png",
+        ],
+        &[
+            "generate",
+            "-n",
+            "1200",
+            "--space",
+            "target/polygons/coast.txt",
+            "--method",
+            "push-pull",
+            "--draw",
+            "voronoi,points",
+            "-o",
+            "gallery/polygon.png",
         ],
         &["mesh", "target/polygons/coast.txt", "-n", "6000", "--grade", "0.2", "-o", "gallery/coast.png"],
         &["mesh", "target/polygons/plate.txt", "--spacing", "0.04", "--no-obtuse", "-o", "gallery/plate.png"],

@@ -11,6 +11,8 @@
 //! - [`Mode::Fast`] adds momentum, restarted if the energy keeps rising, which the proof does not cover: a better result in a third of the iterations.
 //! - In a rectangle the border is sampled first: corners and evenly spaced points slide along it, and while they find their
 //!   place the triangulation is built anew, so that the triangles cover the whole domain.
+//! - In a polygon border points are those that the border stops. Every few iterations the triangulation is built anew, and triangles whose circumcentre lies outside, or whose
+//!   corners do not see each other, are left out, as the paper does at the start: corners may stay free. Points that come together at the border are moved apart.
 //! - Where the density varies, a triangle's model is as large as the density at its centroid wants it (the paper's future work). The energy may then rise.
 //!
 //! Cost: O(n) an iteration, the number of iterations does not grow with n. It promises no smallest distance and no regularity.
@@ -149,7 +151,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     let mut energy = mesh.flip_and_match(false).energy / mesh.area();
     report.energy.push(energy);
     report.outcome = Outcome::IterationLimit;
-    let mut decay = Decay::new(params, !points.density().is_uniform());
+    let mut decay = Decay::new(params, !points.density().is_uniform() || rim == Rim::Polygon);
     while report.iterations < params.max_iterations {
         if run.is_cancelled() {
             report.outcome = Outcome::Cancelled;
@@ -209,7 +211,7 @@ struct Decay {
     gains: [f64; 4],
     largest: f64,
     fraction: f64,
-    /// Where the density varies, how far the energy is above its lowest, and how many iterations ago it was clearly lower than ever before.
+    /// Where the density varies, and in a polygon, how far the energy is above its lowest, and how many iterations ago it was clearly lower than ever before.
     is_varying: bool,
     above_lowest: f64,
     n_idle: usize,
