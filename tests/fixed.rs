@@ -2,50 +2,16 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod methods;
 mod shapes;
 
 use evenly::{
-    CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, OptBetaParams, Outcome, PointSet, PoissonDiskParams,
-    Polygon, ProcrustesParams, PushPullParams, Rectangle, RunContext, Space, Torus, WellSpacedParams, capacity, cvt, distmesh, eliminate,
-    farthest_point, lloyd, measure, opt_beta, poisson_disk_around, procrustes, push_pull, warp, well_spaced, white,
+    Outcome, PointSet, PoissonDiskParams, Polygon, PushPullParams, Rectangle, RunContext, Space, Torus, eliminate, measure,
+    poisson_disk_around, push_pull, warp, white,
 };
 use proptest::prelude::*;
 
-type Optimize = fn(&mut PointSet);
-const OPTIMIZERS: [(&str, Optimize); 9] = [
-    ("procrustes", |points| {
-        drop(
-            procrustes(points, &ProcrustesParams { max_iterations: 30, ..ProcrustesParams::default() }, &mut RunContext::default())
-                .unwrap(),
-        )
-    }),
-    ("push-pull", |points| {
-        drop(push_pull(points, &PushPullParams { max_passes: Some(40), ..PushPullParams::default() }, &mut RunContext::default()).unwrap())
-    }),
-    ("well-spaced", |points| {
-        drop(
-            well_spaced(points, &WellSpacedParams { max_passes: Some(40), ..WellSpacedParams::default() }, &mut RunContext::default())
-                .unwrap(),
-        )
-    }),
-    ("capacity", |points| {
-        drop(capacity(points, &CapacityParams { max_passes: Some(40), ..CapacityParams::default() }, &mut RunContext::default()).unwrap())
-    }),
-    ("lloyd", |points| drop(lloyd(points, &LloydParams { iterations: 10, ..LloydParams::default() }, &mut RunContext::default()).unwrap())),
-    ("distmesh", |points| {
-        drop(distmesh(points, &DistMeshParams { iterations: 10, ..DistMeshParams::default() }, &mut RunContext::default()).unwrap())
-    }),
-    ("opt-beta", |points| {
-        drop(opt_beta(points, &OptBetaParams { iterations: 3, ..OptBetaParams::default() }, &mut RunContext::default()).unwrap())
-    }),
-    ("cvt", |points| drop(cvt(points, &CvtParams { iterations: 6, ..CvtParams::default() }, &mut RunContext::default()).unwrap())),
-    ("farthest-point", |points| {
-        drop(
-            farthest_point(points, &FarthestPointParams { iterations: 3, ..FarthestPointParams::default() }, &mut RunContext::default())
-                .unwrap(),
-        )
-    }),
-];
+use methods::OPTIMIZERS;
 
 fn spaces() -> [Space; 4] {
     [

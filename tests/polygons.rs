@@ -2,46 +2,22 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod methods;
 mod shapes;
 
 use evenly::{
-    CapacityParams, CvtParams, DartParams, DistMeshParams, FarthestPointParams, LloydParams, OptBetaParams, Outcome, PointSet,
-    PoissonDiskParams, Polygon, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, RunContext, Space, Targets, WellSpacedParams,
-    capacity, cvt, dart, distmesh, eliminate, farthest_point, jittered, lloyd, measure, opt_beta, poisson_disk, poisson_disk_of,
-    procrustes, push_pull, tessellate, well_spaced, white,
+    DartParams, Density, Measures, Outcome, PointSet, PoissonDiskParams, Polygon, PushPullParams, Rectangle, RunContext, Space, Targets,
+    dart, eliminate, jittered, measure, poisson_disk, poisson_disk_of, poisson_disk_of_density, push_pull, tessellate, white,
+    white_by_density,
 };
 use proptest::prelude::*;
 
+use methods::OPTIMIZERS;
 use shapes::{Ring, comb, l_shape, moved, needle, nested, passage, slit, spiral, star};
 
 fn space(rings: &[Ring]) -> Space {
     Space::from(&Polygon::from_rings(rings.to_vec()).unwrap())
 }
-
-/// The optimisers, quick ones.
-type Optimize = fn(&mut PointSet, &mut RunContext) -> Outcome;
-const OPTIMIZERS: [(&str, Optimize); 9] = [
-    ("procrustes", |points, run| {
-        procrustes(points, &ProcrustesParams { max_iterations: 70, ..ProcrustesParams::default() }, run).unwrap().outcome
-    }),
-    ("push-pull", |points, run| {
-        let params = PushPullParams { max_passes: Some(60), ..PushPullParams::preset(PushPullPreset::Fast) };
-        push_pull(points, &params, run).unwrap().outcome
-    }),
-    ("well-spaced", |points, run| {
-        well_spaced(points, &WellSpacedParams { beta: 0.9, max_passes: Some(60), ..WellSpacedParams::default() }, run).unwrap().outcome
-    }),
-    ("capacity", |points, run| {
-        capacity(points, &CapacityParams { max_passes: Some(60), ..CapacityParams::default() }, run).unwrap().outcome
-    }),
-    ("lloyd", |points, run| lloyd(points, &LloydParams { iterations: 15, ..LloydParams::default() }, run).unwrap().outcome),
-    ("distmesh", |points, run| distmesh(points, &DistMeshParams { iterations: 15, ..DistMeshParams::default() }, run).unwrap().outcome),
-    ("opt-beta", |points, run| opt_beta(points, &OptBetaParams { iterations: 5, ..OptBetaParams::default() }, run).unwrap().outcome),
-    ("cvt", |points, run| cvt(points, &CvtParams { iterations: 10, ..CvtParams::default() }, run).unwrap().outcome),
-    ("farthest-point", |points, run| {
-        farthest_point(points, &FarthestPointParams { iterations: 3, ..FarthestPointParams::default() }, run).unwrap().outcome
-    }),
-];
 
 fn starts(space: &Space, n: usize, seed: u64) -> [(&'static str, PointSet); 5] {
     [
@@ -90,7 +66,7 @@ proptest! {
         }
         for (method, optimize) in OPTIMIZERS {
             let mut points = jittered(&space, n, seed).unwrap();
-            optimize(&mut points, &mut RunContext::default());
+            optimize(&mut points);
             assert_inside(&points, n, &format!("{method} in {space}"));
         }
     }
@@ -103,9 +79,8 @@ fn a_square_is_a_square() {
     let points = white(&rectangle, 500, 3).unwrap();
     let [of_rectangle, of_square] =
         [rectangle, square].map(|space| measure(&PointSet::new(space, points.positions().to_vec()).unwrap()).unwrap());
-    let numbers = |m: &evenly::Measures| {
-        [m.min_distance, m.mean_distance, m.coverage_radius, m.capacity_sd, m.cvt_energy, m.angle_rms_deg, m.bond_order]
-    };
+    let numbers =
+        |m: &Measures| [m.min_distance, m.mean_distance, m.coverage_radius, m.capacity_sd, m.cvt_energy, m.angle_rms_deg, m.bond_order];
     for (a, b) in numbers(&of_rectangle).into_iter().zip(numbers(&of_square)) {
         assert!((a - b).abs() < 1e-9, "{a} {b}");
     }
@@ -173,7 +148,7 @@ fn the_number_of_threads_changes_no_bit_in_a_polygon() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
             pool.install(|| {
                 let mut points = jittered(&space, 5000, 11).unwrap();
-                optimize(&mut points, &mut RunContext::default());
+                optimize(&mut points);
                 let measures = measure(&points).unwrap();
                 (points, measures)
             })
@@ -188,5 +163,40 @@ fn what_lies_outside_is_refused() {
     let space = space(&l_shape());
     for (place, is_inside) in [([0.25, 0.25], true), ([0.75, 0.75], false), ([0.5, 0.5], true), ([0.0, 0.7], true), ([-1e-3, 0.5], false)] {
         assert_eq!(PointSet::new(&space, vec![place]).is_ok(), is_inside, "{place:?}");
+    }
+}
+
+#[test]
+fn edges_of_45_degrees_are_no_worse_than_others() {
+    let diamond = space(&[vec![[1.0, 0.0], [2.0, 1.0], [1.0, 2.0], [0.0, 1.0]]]);
+    for n in [1, 30, 500] {
+        assert_eq!(poisson_disk_of(&diamond, n, 1).unwrap().n_points(), n);
+    }
+}
+
+#[test]
+fn parts_may_lie_far_from_each_other() {
+    let square = |x: f64| vec![[x, x], [x + 1.0, x], [x + 1.0, x + 1.0], [x, x + 1.0]];
+    for far in [1e3, 1e5, 1e9] {
+        let space = space(&[square(0.0), square(far)]);
+        for (method, optimize) in OPTIMIZERS {
+            let mut points = jittered(&space, 60, 2).unwrap();
+            optimize(&mut points);
+            assert_inside(&points, 60, method);
+        }
+        let params = PoissonDiskParams::for_about(&space, 60);
+        assert_eq!(poisson_disk(&space, &params).is_ok(), far < 1e4);
+    }
+}
+
+#[test]
+fn a_density_holds_inside() {
+    let space = space(&l_shape());
+    let density = Density::image(2, 1, &[1.0, 4.0]).unwrap();
+    for points in [white_by_density(&space, &density, 400, 1).unwrap(), poisson_disk_of_density(&space, &density, 400, 1).unwrap()] {
+        assert_inside(&points, 400, "by density");
+        // The right half of the L has a third of its area, and two thirds of its mass.
+        let n_right = points.positions().iter().filter(|p| p[0] > 0.5).count();
+        assert!((220..310).contains(&n_right), "{n_right}");
     }
 }

@@ -73,6 +73,8 @@ pub struct Generate {
     #[arg(long, default_value = "procrustes", value_parser = parser(|method| method != Method::Warp))]
     pub method: Method,
     /// What an optimiser starts from [default: white; opt-beta: poisson-disk]
+    ///
+    /// In a polygon, where there is no warp, jittered, and by a density eliminate.
     #[arg(long, value_parser = parser(Method::is_start), hide_possible_values = true)]
     pub start: Option<Method>,
     /// The same seed gives the same points
@@ -131,7 +133,7 @@ pub struct Compare {
     /// How often, each time with the next seed
     #[arg(long, value_name = "K", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     pub runs: u16,
-    /// What all optimisers start from, without an input [default: white]
+    /// What all optimisers start from, without an input [default: white; in a polygon jittered]
     #[arg(long, value_parser = parser(Method::is_start), hide_possible_values = true, conflicts_with = "input")]
     pub start: Option<Method>,
     /// The first run's seed

@@ -11,9 +11,9 @@ use crate::talk::say;
 
 #[derive(Args)]
 pub struct SpaceArgs {
-    /// The domain: torus (periodic, its sets tile the plane), rect (bounded), or a polygon's file
+    /// The domain: torus (periodic), rect (bounded), or a polygon's file
     ///
-    /// Polygons are read as by mesh: GeoJSON, WKT, SVG or text. Points stay inside, and see nothing across its border.
+    /// Sets of a torus tile the plane. Polygons are read as by mesh: GeoJSON, WKT, SVG or text. Points stay inside, and see nothing across its border.
     #[arg(long, value_name = "SPACE", default_value = "torus", value_parser = parse_space)]
     space: SpaceArg,
     /// Width and height of a torus or rect [default: 1,1]
@@ -37,7 +37,9 @@ pub struct DensityArgs {
 
 #[derive(Args)]
 pub struct FixedArg {
-    /// Points that stay where they are, as .txt, .csv or .npy: among the others, and first in the output
+    /// Points that stay where they are, as .txt, .csv or .npy
+    ///
+    /// They are among the N, and come first in the output.
     #[arg(long, value_name = "FILE")]
     fixed: Option<PathBuf>,
 }

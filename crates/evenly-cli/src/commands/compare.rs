@@ -48,7 +48,7 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     for &method in &methods {
         args.optimizer.optimizer(method, args.seed)?;
     }
-    let start = args.start.unwrap_or(Method::Procrustes.default_start(&space));
+    let start = args.start.unwrap_or(Method::Procrustes.default_start(&space, false));
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
     let runner = Runner { args, space, n_points, start, given, cancel };

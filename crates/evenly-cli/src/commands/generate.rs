@@ -17,7 +17,7 @@ pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
     input::require_one_stdin(args.density.path().into_iter().chain(args.space.path()).chain(args.fixed.path()))?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, Some(args.seed))?;
-    let begin = args.start.unwrap_or(args.method.default_start(&space));
+    let begin = args.start.unwrap_or(args.method.default_start(&space, args.density.is_given()));
     if args.density.is_given() && optimizer.is_some() {
         begin.require_density()?;
     }

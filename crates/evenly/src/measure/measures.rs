@@ -32,9 +32,9 @@ pub struct Measures {
     pub hex_spacing: f64,
     /// Points that share their place with an earlier one. They count in the distances, and nowhere else.
     pub coincident_points: usize,
-    /// Smallest distance of two points; 1 at most, and for the hexagonal lattice.
+    /// Smallest distance of two points; 1 at most, and for the hexagonal lattice. Infinite in a polygon where none sees another.
     pub min_distance: f64,
-    /// Mean over the points of the distance to the nearest other.
+    /// Mean over the points of the distance to the nearest other; in a polygon over those that see another, NaN if none does.
     pub mean_distance: f64,
     /// Radius of the largest disk in the domain without a point; 0.577 for the hexagonal lattice.
     pub coverage_radius: f64,
@@ -104,6 +104,8 @@ impl Measures {
 struct Sums {
     min_distance: f64,
     distance: f64,
+    /// Vertices that see no other.
+    n_alone: usize,
     reach: f64,
     capacity_squares: f64,
     capacity_deviation: f64,
@@ -159,7 +161,7 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         hex_spacing: points.space().hex_spacing(n_points),
         coincident_points,
         min_distance,
-        mean_distance: sums.distance / n_points as f64 / spacing,
+        mean_distance: sums.distance / (n_points - sums.n_alone) as f64 / spacing,
         coverage_radius,
         beta: coverage_radius / min_distance,
         bond_order: sums.bond_order / n_inner,
@@ -211,7 +213,10 @@ impl Sums {
     fn add(&mut self, star: StarMeasures, mean_capacity: f64, is_shared: bool) {
         self.min_distance = self.min_distance.min(star.nearest);
         // A point that shares its place has its nearest neighbour at distance 0.
-        self.distance += if is_shared { 0.0 } else { star.nearest };
+        if !is_shared && star.nearest.is_finite() {
+            self.distance += star.nearest;
+        }
+        self.n_alone += usize::from(!star.nearest.is_finite());
         self.reach = self.reach.max(star.reach);
         let deviation = star.capacity / mean_capacity - 1.0;
         self.capacity_squares += deviation * deviation;
@@ -242,6 +247,7 @@ impl Sums {
     fn merge(&mut self, other: &Self) {
         self.min_distance = self.min_distance.min(other.min_distance);
         self.distance += other.distance;
+        self.n_alone += other.n_alone;
         self.reach = self.reach.max(other.reach);
         self.capacity_squares += other.capacity_squares;
         self.capacity_deviation = self.capacity_deviation.max(other.capacity_deviation);

@@ -32,6 +32,10 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
         report.notes.push("fewer than three points: nothing to optimise, they come back as they are".into());
         return Ok(None);
     }
+    if points.n_fixed() == points.n_points() {
+        report.notes.push("all points stay where they are: nothing to optimise".into());
+        return Ok(None);
+    }
     run.enter(Phase::Separate);
     let (domain, mut positions) = points.normalized();
     let spacing = domain.hex_spacing(positions.len());

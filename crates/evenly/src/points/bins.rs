@@ -14,13 +14,20 @@ pub(crate) struct Bins {
     places: Vec<DVec2>,
 }
 
+/// The most bins of a polygon's frame.
+const MOST_BINS: f64 = 1e7;
 /// No point.
 const NONE: u32 = u32::MAX;
 
 impl Bins {
     /// Empty bins, whose sides are `reach` at least.
     pub fn new(domain: &Domain, reach: f64) -> Self {
-        let n_bins = (domain.size / reach).floor().max(DVec2::ONE).to_array().map(|n| n as usize);
+        let mut n_bins = (domain.size / reach).floor().max(DVec2::ONE);
+        // A polygon may have its parts far from each other.
+        if domain.border.is_some() && n_bins.x * n_bins.y > MOST_BINS {
+            n_bins = (n_bins * (MOST_BINS / (n_bins.x * n_bins.y)).sqrt()).floor().clamp(DVec2::ONE, DVec2::splat(MOST_BINS.sqrt()));
+        }
+        let n_bins = n_bins.to_array().map(|n| n as usize);
         Self { domain: domain.clone(), n_bins, last: vec![NONE; n_bins[0] * n_bins[1]], before: Vec::new(), places: Vec::new() }
     }
 

@@ -9,7 +9,8 @@
 //! proportional to the area of its squares, and a cell may throw once no cell around it has an earlier time. The points are distributed as those of darts
 //! thrown one after the other at the whole domain, but are found in the order in which memory lies.
 //!
-//! Cost: O(n). The result is maximal to within 1e-13 of the spacing, or to what coordinates far from 0 are rounded by.
+//! Cost: O(n). The result is maximal to within 1e-13 of the spacing, or to what coordinates far from 0 are rounded by. In a polygon points count that see each other; the cells of the frame are
+//! gone through, so its parts should not lie far from each other; in passages narrower than a 64th of a cell, and on the far side of walls that are thinner than the spacing, a point may be missing.
 
 mod cells;
 
@@ -129,6 +130,7 @@ pub fn poisson_disk_around(points: &PointSet, params: &PoissonDiskParams) -> Res
     let space = points.space();
     params.validate(space)?;
     let (domain, fixed) = points.normalized();
+    require_few_cells(&domain, params.spacing / domain.restore_length(1.0))?;
     let mut darts = Darts::new(space, &domain, params);
     for &point in &fixed {
         darts.put_fixed(point)?;
@@ -142,6 +144,18 @@ pub fn poisson_disk_around(points: &PointSet, params: &PoissonDiskParams) -> Res
     let others = PointSet::from_normalized(space.clone(), others);
     let all = points.positions().iter().chain(others.positions()).copied().collect();
     PointSet::new(space, all)?.with_density(points.density()).with_fixed(points.n_points())
+}
+
+/// Cells fill the frame of a polygon, which may have its parts far from each other.
+fn require_few_cells(domain: &Domain, spacing: f64) -> Result<(), Error> {
+    const MOST: f64 = 2e8;
+    let n_cells = 2.0 * domain.size.x / spacing * (domain.size.y / spacing);
+    if domain.border.is_some() && n_cells > MOST {
+        let text =
+            format!("maximal sets take {n_cells:.1e} cells here, as the polygon fills so little of its frame: sample its parts one by one");
+        return Err(Error::InvalidSpace(text));
+    }
+    Ok(())
 }
 
 fn points_in(cells: &Cells) -> impl Iterator<Item = DVec2> {
@@ -202,6 +216,9 @@ const SMALLEST: f64 = 1e-13;
 const KEPT: u8 = 3;
 /// From this level on a square is what its centre is: outside, or seen by who sees that. In passages that are narrower there may be no points.
 const FINE: u8 = 6;
+/// From this level on it is seen by all that are near.
+const FINEST: u8 = 16;
+const BEFORE: f64 = 1e-6;
 /// So often another place is tried before a point is put where the dart fell.
 const TRIES: usize = 100;
 
@@ -319,7 +336,8 @@ impl Darts {
     fn is_seen(&self, point: DVec2, centre: DVec2, half: DVec2, level: u8) -> bool {
         self.cells.domain.border.as_ref().is_none_or(|border| {
             let is_open = !border.reaches(point.min(centre - half), point.max(centre + half));
-            is_open || level >= FINE && border.sees(point, centre)
+            // A centre on the border itself is seen as what lies before it is.
+            is_open || level >= FINE && (level >= FINEST || border.sees(point, centre + BEFORE * (point - centre)))
         })
     }
 

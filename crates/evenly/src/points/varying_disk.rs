@@ -13,7 +13,7 @@ use super::point_set::{MAX_POINTS, PointSet};
 use super::poisson_disk::{PoissonDiskParams, poisson_disk, poisson_disk_of};
 use super::radius_bins::{RadiusBins, bins_for, radius};
 use super::random::Random;
-use super::white::white_by_density;
+use super::white::{draw, white_by_density};
 use crate::density::{Density, Field};
 use crate::error::Error;
 use crate::space::{Domain, Space};
@@ -48,8 +48,7 @@ pub fn poisson_disk_by_density(space: impl Into<Space>, density: &Density, param
     loop {
         let before = disks.places.len();
         for _ in 0..expected as usize {
-            let mass = random.unit();
-            let dart = disks.field.place(mass, random.unit());
+            let dart = draw(&disks.domain, &disks.field, &mut random)?;
             disks.try_put(dart);
         }
         if ((disks.places.len() - before) as f64) < FEW * expected {
@@ -99,7 +98,8 @@ impl Disks {
     fn try_put(&mut self, place: DVec2) -> bool {
         let place = self.domain.land(place);
         let radius = radius(&self.field, place, self.mean);
-        let is_free = self.bins.near(place, radius).next().is_none();
+        let is_free = self.domain.contains(place)
+            && !self.bins.near(place, radius).any(|(other, _)| self.domain.sees(self.places[other as usize], place));
         if is_free {
             self.bins.push(place, radius);
             self.places.push(place);
@@ -116,7 +116,7 @@ impl Disks {
                 let x = random.signed();
                 let way = 2.0 * radius * DVec2::new(x, random.signed());
                 let dart = place + way;
-                let is_here = self.domain.is_periodic || self.domain.contains(dart);
+                let is_here = self.domain.is_periodic || self.domain.contains(dart) && self.domain.sees(place, dart);
                 // Where the density is 0 nothing is wanted.
                 if is_here && way.abs().max_element() < self.domain.size.min_element() && self.field.at(dart) > 0.0 {
                     self.try_put(dart);

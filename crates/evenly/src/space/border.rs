@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::domain::{GRID, snap};
+use super::grid::{GRID, snap};
 use crate::predicates::is_left_turn;
 
 /// A border of straight segments in a domain [0, size]; the inside is on their left.

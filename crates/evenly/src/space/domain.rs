@@ -9,15 +9,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::border::Border;
+use super::grid::snap;
 use crate::predicates::is_left_turn;
 
-/// Adding and subtracting this rounds to a multiple of 2^-47, for |x| < 16.
-const SNAP: f64 = 1.5 * 32.0;
 /// Adding and subtracting this rounds to an integer, for |x| < 2^51.
 const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
-/// The spacing of the grid on which all positions lie.
-pub(crate) const GRID: f64 = 1.0 / (1u64 << 47) as f64;
-
 /// A box [0, size.x] x [0, size.y], periodic or not, or what a border encloses in it.
 #[derive(Debug, Clone)]
 pub(crate) struct Domain {
@@ -34,12 +30,6 @@ pub(crate) struct Domain {
     scale: f64,
     /// What encloses the domain, where that is not the box itself.
     pub border: Option<Arc<Border>>,
-}
-
-/// Rounds to the grid.
-#[inline]
-pub(crate) fn snap(p: DVec2) -> DVec2 {
-    (p + SNAP) - SNAP
 }
 
 impl Domain {
@@ -196,6 +186,7 @@ impl Domain {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::space::GRID;
 
     #[test]
     fn a_position_survives_the_way_in_and_out() {
@@ -219,12 +210,5 @@ mod tests {
         assert_eq!(domain.restore(domain.size - GRID)[0], -1.0 + 3.0 - 2.0 * GRID);
         let spoke = domain.spoke(domain.normalize([-0.9, 2.1]), domain.normalize([1.9, 2.1]));
         assert!((domain.restore_length(spoke.x) + 0.2).abs() < 1e-12);
-    }
-
-    #[test]
-    fn snapping_is_a_round_trip_to_the_grid() {
-        let p = snap(DVec2::new(1.0 / 3.0, -0.1));
-        assert_eq!(p, snap(p));
-        assert!((p.x / GRID).fract() == 0.0 && (p.y / GRID).fract() == 0.0);
     }
 }

@@ -2,10 +2,12 @@
 
 mod border;
 mod domain;
+mod grid;
 mod region;
 
 pub(crate) use border::Border;
-pub(crate) use domain::{Domain, GRID, snap};
+pub(crate) use domain::Domain;
+pub(crate) use grid::{GRID, snap};
 pub use region::Region;
 
 use serde::Serialize;

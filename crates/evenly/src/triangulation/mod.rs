@@ -22,6 +22,7 @@ mod stars;
 mod torus;
 mod transplant;
 mod walls;
+mod within;
 
 pub(crate) use chunks::Chunks;
 pub(crate) use delaunay::delaunay;

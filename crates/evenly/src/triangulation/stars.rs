@@ -10,23 +10,19 @@ use super::half_edges::{BORDER, next};
 use super::held::Held;
 use super::live::{LEAST_DENSITY, LiveMesh, Outside};
 use super::shared::Territory;
-use super::sight::{Moments, Sight};
+use super::sight::Sight;
 use super::spoke::{MIRROR, Spoke};
 use super::walls::WallCell;
 use crate::density::Field;
 use crate::error::Error;
-use crate::space::Border;
 use crate::star::{Senses, Star, Wall, Wedge};
 
 /// The fewest points that a thread looks at in one go.
 const CHUNK: usize = 1 << 12;
 /// The corners of cells are looked at up to so many times the longest spoke.
 const FAR: f64 = 16.0;
-/// By how much more than others the area of a cell may be off that a polygon's border cuts: in its nooks it must. And if its point stays there.
-const LEEWAY: f64 = 0.25;
-const FIXED_LEEWAY: f64 = 1.0;
-/// So many points are looked at, at most, for those that stand in for hidden neighbours.
-const MOST_SEEN: usize = 400;
+/// By how much more than others the area of a cell at a wall or border may be off whose point stays.
+const LEEWAY_AT_WALLS: f64 = 1.0;
 /// Where the sum of two cotangents is less than this much of its terms, exact arithmetic decides on its sign.
 const DOUBT: f64 = 1e-9;
 
@@ -46,7 +42,7 @@ pub(crate) struct StarBuffer {
     pub(super) moving: Vec<Spoke>,
     /// The vertices around one.
     pub near: Vec<u32>,
-    wall_cell: WallCell,
+    pub(super) wall_cell: WallCell,
     /// What is seen of a cell that a polygon's border cuts; nothing of others.
     pub sight: Sight,
     /// The corners of a cell.
@@ -73,7 +69,7 @@ impl LiveMesh {
             self.fill_within(border, v, territory, buffer)?;
         }
         if self.is_fixed(v) && buffer.star.is_mirror.contains(&true) {
-            buffer.star.leeway = FIXED_LEEWAY;
+            buffer.star.leeway = LEEWAY_AT_WALLS;
         }
         if let Some(field) = &self.field {
             self.weigh(field, v, buffer);
@@ -82,12 +78,6 @@ impl LiveMesh {
             self.scale_sizes(held, v, buffer);
         }
         Ok(())
-    }
-
-    /// The squared distance of a place that the vertex `v` sees to the nearest point that sees it, of those that were looked at for the star of `v`.
-    pub fn distance_to_seeing(&self, v: u32, near: &[u32], place: DVec2) -> f64 {
-        let others = near.iter().map(|&other| self.position(other)).filter(|&other| self.domain.sees(other, place));
-        others.chain([self.position(v)]).map(|other| other.distance_squared(place)).fold(f64::INFINITY, f64::min)
     }
 
     /// Looks at the stars of all points, in order.
@@ -252,71 +242,6 @@ impl LiveMesh {
                 wall_cell.fill(star, spokes, scale);
             }
         }
-    }
-}
-
-impl LiveMesh {
-    /// Whether nothing of a border is so near to a point that its star could be another there, and none of its neighbours is the frame's.
-    fn is_clear(&self, border: &Border, v: u32, buffer: &mut StarBuffer) -> bool {
-        let StarBuffer { star, spokes, sight, .. } = buffer;
-        let at = self.mesh.position(v);
-        let reach = (0..star.n_spokes()).map(|k| star.lengths[k].max(star.circumradius(k))).fold(0.0, f64::max) * self.spacing;
-        spokes.iter().all(|spoke| spoke.vertex < self.n_live) && (border.clearance(at) > reach || sight.is_alone(at, reach, border))
-    }
-
-    /// Turns the spokes in the buffer into the star of what is seen of the cell in a polygon.
-    fn fill_within(&self, border: &Border, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        let StarBuffer { star, spokes, wall_cell, sight, near, moving, .. } = buffer;
-        let at = self.mesh.position(v);
-        near.clear();
-        near.extend(spokes.iter().map(|spoke| spoke.vertex).filter(|&vertex| vertex < self.n_live));
-        let seen = |&vertex: &u32| {
-            let place = self.mesh.position(vertex);
-            border.sees(at, place).then_some((vertex, place - at))
-        };
-        let n_seen = near.iter().filter_map(seen).count();
-        wall_cell.clip(at, self.domain.size, near.iter().filter_map(seen));
-        let mut is_less = sight.look(at, wall_cell, border);
-        if n_seen < spokes.len() {
-            // Where neighbours are hidden, others stand in for them: from ring to ring.
-            near.push(v);
-            let mut ring = 0..near.len() - 1;
-            while !ring.is_empty() && near.len() < MOST_SEEN {
-                let reach = 2.0 * sight.reach();
-                let is_near = |vertex: u32| self.mesh.position(vertex).distance_squared(at) < reach * reach;
-                let end = near.len();
-                for k in ring {
-                    if is_near(near[k]) {
-                        self.walk(near[k], territory, moving)?;
-                        for other in moving.iter().map(|spoke| spoke.vertex) {
-                            if other < self.n_live && !near.contains(&other) {
-                                near.push(other);
-                            }
-                        }
-                    }
-                }
-                ring = end..near.len();
-                let mut is_cut = false;
-                for (other, way) in near[ring.clone()].iter().filter(|&&other| is_near(other)).filter_map(seen) {
-                    wall_cell.cut(other, way);
-                    is_cut = true;
-                }
-                if is_cut {
-                    is_less = sight.look(at, wall_cell, border);
-                }
-            }
-        }
-        if is_less || n_seen < spokes.len() {
-            let scale = 1.0 / self.spacing;
-            sight.cell.fill(star, spokes, scale);
-            // What is seen may be less than the hull that the star shows.
-            let Moments { area, centroid, .. } = sight.moments();
-            (star.metric.mass, star.metric.centroid) = (Some(area * scale * scale), Some(centroid * scale));
-            star.leeway = LEEWAY;
-        } else {
-            sight.outline.clear();
-        }
-        Ok(())
     }
 }
 
