@@ -1,9 +1,12 @@
-//! Meshes of polygons: how good they are, and what they cost.
+//! Meshes of polygons, and points in them: how good they are, and what they cost.
 
 use std::collections::HashSet;
 use std::time::Instant;
 
-use evenly::{EdgeKind, Mesh, MeshParams, Polygon, RunContext, expected_triangles, mesh, mesh_quality};
+use evenly::{
+    EdgeKind, Mesh, MeshParams, OptBetaParams, PointSet, Polygon, PushPullParams, RunContext, Space, Targets, WellSpacedParams,
+    expected_triangles, jittered, measure, mesh, mesh_quality, opt_beta, poisson_disk_of, push_pull, well_spaced,
+};
 
 use super::shapes::{Ring, coast, holed_square, l_shape};
 use super::{MEMORY, pool};
@@ -18,6 +21,8 @@ pub fn of_meshes(is_quick: bool) {
     detailed();
     let sizes = if is_quick { &[10_000.0, 100_000.0][..] } else { &[10_000.0, 100_000.0, 1_000_000.0] };
     sizes.iter().for_each(|&n| cost(n));
+    ratios();
+    sizes.iter().for_each(|&n| sampled(n as usize));
 }
 
 fn meshed(rings: Vec<Ring>, params: &MeshParams) -> Mesh {
@@ -106,5 +111,56 @@ fn cost(n_triangles: f64) {
         mesh.triangles.len(),
         1e6 * seconds / n_vertices,
         report.visits as f64 / n_vertices
+    );
+}
+
+/// As many points as the paper's shapes have.
+const POINTS: [usize; 2] = [600, 2300];
+
+fn ratios() {
+    type Method = fn(&mut PointSet, u64);
+    let methods: [(&str, Method); 2] = [
+        ("Opt-beta to 0.75, 200 sweeps", |points, _| {
+            let params = OptBetaParams { beta: 0.75, ..OptBetaParams::default() };
+            opt_beta(points, &params, &mut RunContext::default()).unwrap();
+        }),
+        ("well-spaced, beta 0.75", |points, seed| {
+            well_spaced(points, &WellSpacedParams { seed, ..WellSpacedParams::default() }, &mut RunContext::default()).unwrap();
+        }),
+    ];
+    for (name, rings) in [("L-shape", l_shape()), ("square with a hole", holed_square())] {
+        let space = Space::from(&Polygon::from_rings(rings).unwrap());
+        for n in POINTS {
+            for (method, run) in &methods {
+                let betas = (0..SEEDS).map(|seed| {
+                    let mut points = poisson_disk_of(&space, n, seed).unwrap();
+                    run(&mut points, seed);
+                    measure(&points).unwrap().beta
+                });
+                let mut betas: Vec<f64> = betas.collect();
+                betas.sort_by(f64::total_cmp);
+                let [least, middle, most] = [0, betas.len() / 2, betas.len() - 1].map(|k| betas[k]);
+                println!(
+                    "| {method}, {n} points in a {name}, {SEEDS} seeds | - | beta {least:.3}, {middle:.3}, {most:.3} (least, median, most) |"
+                );
+            }
+        }
+    }
+}
+
+fn sampled(n: usize) {
+    let polygon = Polygon::from_rings(coast(6000)).unwrap();
+    let mut points = jittered(Space::from(&polygon), n, 1).unwrap();
+    let params = PushPullParams::default();
+    let start = Instant::now();
+    let report = pool(1).install(|| push_pull(&mut points, &params, &mut RunContext::default()).unwrap());
+    let seconds = start.elapsed().as_secs_f64();
+    let visits = report.visits as f64 / n as f64;
+    let is_reached = params.unmet(&measure(&points).unwrap()).is_empty();
+    println!(
+        "| Push-Pull {{0.85, 0.67}} in a coast of {} corners, one thread, n = {n} | - | {seconds:.2} s, {visits:.1} visits a point, {:.0} ns a visit, {} |",
+        polygon.rings()[0].len(),
+        1e9 * seconds / report.visits as f64,
+        if is_reached { "reached" } else { "not reached" }
     );
 }

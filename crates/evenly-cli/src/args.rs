@@ -66,7 +66,7 @@ pub enum Command {
 #[derive(Args)]
 #[command(after_help = "Example:\n  evenly generate -n 10000 --method procrustes -o points.svg --draw valence,points")]
 pub struct Generate {
-    /// How many points, exactly: 1 to 40 million; poisson-disk takes it as a guess
+    /// How many points, exactly: up to 40 million; of poisson-disk about
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_points: Option<usize>,
     /// How they are made: by an optimiser, or as one of its starts
