@@ -74,7 +74,7 @@ pub struct Generate {
     pub method: Method,
     /// What an optimiser starts from [default: white; opt-beta: poisson-disk]
     ///
-    /// In a polygon, where there is no warp, jittered, and by a density eliminate.
+    /// In a polygon, where there is no warp, jittered; for opt-beta and by a density eliminate.
     #[arg(long, value_parser = parser(Method::is_start), hide_possible_values = true)]
     pub start: Option<Method>,
     /// The same seed gives the same points

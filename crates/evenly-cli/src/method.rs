@@ -95,9 +95,14 @@ impl Method {
     /// What it starts from, as an optimiser, if nothing else is asked for: in a polygon, where no warp takes long waves out, what has none.
     pub fn default_start(self, space: &Space, has_density: bool) -> Self {
         match (self, space) {
+            (method, Space::Polygon(_)) => {
+                if has_density || method == OptBeta {
+                    Eliminate
+                } else {
+                    Jittered
+                }
+            }
             (OptBeta, _) => PoissonDisk,
-            (_, Space::Polygon(_)) if has_density => Eliminate,
-            (_, Space::Polygon(_)) => Jittered,
             _ => White,
         }
     }

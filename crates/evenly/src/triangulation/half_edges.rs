@@ -3,8 +3,6 @@
 //! Triangle `t` owns the half-edges `3t`, `3t + 1`, `3t + 2`, in counter-clockwise order. A half-edge knows the vertex it
 //! leaves and the half-edge that runs the other way, in the neighbouring triangle; on a border there is none.
 
-use std::collections::HashMap;
-
 /// The twin of a half-edge on a border.
 pub(crate) const BORDER: u32 = u32::MAX;
 
@@ -124,24 +122,30 @@ impl HalfEdges {
         kept
     }
 
-    /// Triangles, counter-clockwise, with borders where none stands on the other side. Of two on the same side of an edge the second is left out.
-    pub fn of_triangles(triangles: impl Iterator<Item = [u32; 3]>) -> Self {
-        let mut all = Self { origin: Vec::new(), twin: Vec::new() };
-        let mut slots: HashMap<[u32; 2], u32> = HashMap::new();
-        for [a, b, c] in triangles {
-            let sides = [[a, b], [b, c], [c, a]];
-            if sides.iter().any(|side| slots.contains_key(side)) {
+    /// Triangles of so many vertices, counter-clockwise, with borders where none stands on the other side. Of two on the same side of an edge the second is left out.
+    pub fn of_triangles(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]>) -> Self {
+        let mut all = Self::default();
+        // The last half-edge that leaves each vertex, and for each the one before it.
+        let (mut last, mut before) = (vec![BORDER; n_vertices], Vec::new());
+        for corners in triangles {
+            let sides = [0, 1, 2].map(|k| [corners[k], corners[(k + 1) % 3]]);
+            let find = |all: &Self, [from, to]: [u32; 2]| {
+                let is_one = |&h: &u32| h != BORDER;
+                let leaving = std::iter::successors(Some(last[from as usize]).filter(is_one), |&h| Some(before[h as usize]).filter(is_one));
+                { leaving }.find(|&h| all.target(h) == to)
+            };
+            if sides.iter().any(|&side| find(&all, side).is_some()) {
                 continue;
             }
-            for side in sides {
+            let twins = sides.map(|[from, to]| find(&all, [to, from]));
+            for ([from, _], twin) in sides.into_iter().zip(twins) {
                 let h = all.origin.len() as u32;
-                let twin = slots.get(&[side[1], side[0]]).copied().unwrap_or(BORDER);
-                if twin != BORDER {
+                if let Some(twin) = twin {
                     all.twin[twin as usize] = h;
                 }
-                all.origin.push(side[0]);
-                all.twin.push(twin);
-                slots.insert(side, h);
+                all.origin.push(from);
+                all.twin.push(twin.unwrap_or(BORDER));
+                before.push(std::mem::replace(&mut last[from as usize], h));
             }
         }
         all

@@ -40,5 +40,5 @@ pub(crate) fn clipped(triangulation: &Triangulation) -> Result<HalfEdges, Error>
     let mut triangles: Vec<[u32; 3]> = stars.into_iter().flatten().map(turned).collect();
     triangles.sort_unstable();
     let agreed = triangles.chunk_by(|a, b| a == b).filter(|same| same.len() == 3).map(|same| same[0]);
-    Ok(HalfEdges::of_triangles(agreed))
+    Ok(HalfEdges::of_triangles(n_points, agreed))
 }
