@@ -21,16 +21,17 @@ const ON_SIDE: f64 = 1e-9;
 pub(crate) struct Sight {
     /// The corners of what is seen, counter-clockwise.
     pub outline: Vec<DVec2>,
+    /// The segments near the cell.
     near: Vec<u32>,
-    /// The pieces of segments that stand in the cell, their fronts towards the point: counter-clockwise around it.
+    /// The pieces of segments that stand in the cell with their fronts towards the point: each from its start to its end, counter-clockwise.
     fronts: Vec<[DVec2; 2]>,
     /// The ways in which something begins or ends, and the fronts that stand in the way in between.
     turns: Vec<Turn>,
     active: Vec<u32>,
     /// The outline from left to right.
     across: Vec<DVec2>,
+    /// The corners of its hull, counter-clockwise, and the hull as a cell.
     hull: Vec<DVec2>,
-    /// The hull of what is seen, as a cell.
     pub cell: WallCell,
 }
 
