@@ -6,9 +6,9 @@ mod methods;
 mod shapes;
 
 use evenly::{
-    DartParams, Density, Measures, Outcome, PointSet, PoissonDiskParams, Polygon, PushPullParams, Rectangle, RunContext, Space, Targets,
-    dart, eliminate, jittered, measure, poisson_disk, poisson_disk_of, poisson_disk_of_density, push_pull, tessellate, white,
-    white_by_density,
+    DartParams, Density, Measures, Outcome, PointSet, PoissonDiskParams, Polygon, PushPullParams, PushPullPreset, Rectangle, RunContext,
+    Space, Targets, dart, eliminate, jittered, measure, poisson_disk, poisson_disk_of, poisson_disk_of_density, push_pull, tessellate,
+    white, white_by_density,
 };
 use proptest::prelude::*;
 
@@ -199,4 +199,11 @@ fn a_density_holds_inside() {
         let n_right = points.positions().iter().filter(|p| p[0] > 0.5).count();
         assert!((220..310).contains(&n_right), "{n_right}");
     }
+    // Its mean is 1 inside, whatever lies outside: cells have their share.
+    let outside = Density::function(&space, 64, 64, |p| if p[0] > 0.5 && p[1] > 0.5 { 50.0 } else { 1.0 + p[0] }).unwrap();
+    let mut points = eliminate(&white_by_density(&space, &outside, 3000, 1).unwrap(), 600).unwrap();
+    let report = push_pull(&mut points, &PushPullParams::preset(PushPullPreset::Fast), &mut RunContext::default()).unwrap();
+    let measures = measure(&points).unwrap();
+    assert_eq!(report.outcome, Outcome::Converged, "{measures:?}");
+    assert!(measures.min_distance > 0.74 && measures.coverage_radius < 0.76, "{measures:?}");
 }

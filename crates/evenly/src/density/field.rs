@@ -33,6 +33,8 @@ struct Pixel {
 
 /// How far from a pixel's border points are put, in pixels: rounding does not take them over it.
 const CLEARANCE: f64 = 1.0 / 64.0;
+/// The least mean density in a polygon, relative to that of its frame.
+const LEAST_INSIDE: f64 = 1e-9;
 /// No way is shorter than this part of itself, also where there is no density at all.
 const LEAST_STRETCH: f64 = 1e-6;
 /// The part of their places' roots that counts in a gap between two points.
@@ -44,13 +46,24 @@ impl Field {
     pub(super) fn new(raster: &Arc<Raster>, domain: &Domain) -> Self {
         let size = DVec2::new(raster.columns as f64, raster.rows as f64);
         let scale = size.x * size.y / raster.total();
-        Self {
+        let mut field = Self {
             raster: Arc::clone(raster),
             is_periodic: domain.is_periodic,
             resolution: size / domain.size,
             scale,
             root_scale: scale.sqrt(),
+        };
+        if let Some(border) = &domain.border {
+            let before = |&[a, b]: &[DVec2; 2]| field.flux(a * field.resolution, b * field.resolution).0;
+            let pixels: f64 = border.segments().iter().map(before).sum();
+            let inside = pixels * scale / (field.resolution.x * field.resolution.y);
+            // Where there is next to nothing inside, nothing can be made of it.
+            if inside > LEAST_INSIDE * border.area {
+                field.scale = scale * border.area / inside;
+                field.root_scale = field.scale.sqrt();
+            }
         }
+        field
     }
 
     /// The density at a place.

@@ -67,7 +67,7 @@ pub struct Measures {
     /// How many vertices have each number of neighbours.
     pub valence: BTreeMap<usize, usize>,
     /// Where the density varies, how far the number of points in cells of equal mass, a hundred points' worth each, is from what it should be: relative, root mean
-    /// square. `None` below 150 points.
+    /// square. `None` below 150 points, and in a polygon.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_error: Option<f64>,
     /// What only a bounded domain has.
@@ -150,7 +150,8 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         sums.take(&weighted, spacing, &is_shared);
         cvt_energy = f64::NAN;
     }
-    let density_error = field.and_then(|field| density_error(&domain, &field, points.normalized().1));
+    // In a polygon's frame most of the mass may lie outside.
+    let density_error = field.filter(|_| domain.border.is_none()).and_then(|field| density_error(&domain, &field, points.normalized().1));
 
     let triangles = triangles::measure(&triangulation)?;
     let n_inner = (sums.n_inner as f64).max(1.0);

@@ -263,6 +263,11 @@ impl Border {
             })
     }
 
+    /// All segments.
+    pub fn segments(&self) -> &[[DVec2; 2]] {
+        &self.segments
+    }
+
     pub fn segment(&self, k: u32) -> [DVec2; 2] {
         self.segments[k as usize]
     }

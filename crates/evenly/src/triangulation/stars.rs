@@ -335,6 +335,7 @@ impl LiveMesh {
             (star.metric.mass, star.metric.centroid) = (Some(mass * unit), Some(centroid / self.spacing));
         } else if senses.mass {
             let of_corners = field.mass(at, corners, &mut star.metric.sides);
+            seen_sides.clear();
             let mass = if is_hull { field.mass(at, &sight.outline, seen_sides) } else { of_corners };
             star.metric.mass = Some(mass * unit);
         }
