@@ -106,7 +106,7 @@ pub(super) fn rounding_margin(space: &Space, spacing: f64) -> f64 {
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] for a spacing that is not positive, or more than a torus' shorter side, and for a coverage radius below the spacing;
-/// [`Error::TooManyPoints`] and [`Error::TooFine`] for more points than the domain can hold.
+/// [`Error::TooManyPoints`] and [`Error::TooFine`] for more points than the domain can hold; [`Error::InvalidSpace`] for a polygon that fills next to nothing of its frame.
 ///
 /// # Example
 /// ```
