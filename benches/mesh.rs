@@ -4,8 +4,9 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use evenly::{
-    EdgeKind, Mesh, MeshParams, OptBetaParams, PointSet, Polygon, PushPullParams, RunContext, Space, Targets, WellSpacedParams,
-    expected_triangles, jittered, measure, mesh, mesh_quality, opt_beta, poisson_disk_of, push_pull, well_spaced,
+    DistMeshParams, EdgeKind, LloydParams, Mesh, MeshMethod, MeshParams, OptBetaParams, PointSet, Polygon, PushPullParams, RunContext,
+    Space, Targets, WellSpacedParams, expected_triangles, jittered, measure, mesh, mesh_quality, opt_beta, poisson_disk_of, push_pull,
+    well_spaced,
 };
 
 use super::shapes::{Ring, coast, holed_square, l_shape};
@@ -17,6 +18,7 @@ const SEEDS: u64 = 8;
 
 pub fn of_meshes(is_quick: bool) {
     plain();
+    methods();
     non_obtuse();
     detailed();
     let sizes = if is_quick { &[10_000.0, 100_000.0][..] } else { &[10_000.0, 100_000.0, 1_000_000.0] };
@@ -40,6 +42,30 @@ fn plain() {
             println!(
                 "| mesh of a {name}, spacing {spacing}, {SEEDS} seeds | beta <= .757, angles 41 to 97 | beta <= {beta:.3}, angles {least:.1} to {most:.1} |"
             );
+        }
+    }
+}
+
+fn methods() {
+    let all = [
+        ("Opt-beta", MeshMethod::OptBeta(OptBetaParams { beta: 0.75, ..OptBetaParams::default() })),
+        ("Lloyd", MeshMethod::Lloyd(LloydParams::default())),
+        ("DistMesh", MeshMethod::DistMesh(DistMeshParams::default())),
+    ];
+    for (name, rings) in [("L-shape", l_shape()), ("square with a hole", holed_square())] {
+        for spacing in SPACINGS {
+            for (method_name, method) in all {
+                let (mut beta, mut least, mut most) = (0f64, 180f64, 0f64);
+                let start = Instant::now();
+                for seed in 0..SEEDS {
+                    let quality = mesh_quality(&meshed(rings.clone(), &MeshParams { seed, method, ..MeshParams::new(spacing) }));
+                    (beta, least, most) = (beta.max(quality.beta), least.min(quality.min_angle_deg), most.max(quality.max_angle_deg));
+                }
+                let seconds = start.elapsed().as_secs_f64() / SEEDS as f64;
+                println!(
+                    "| mesh of a {name} by {method_name}, spacing {spacing}, {SEEDS} seeds | - | beta <= {beta:.3}, angles {least:.1} to {most:.1}, {seconds:.2} s each |"
+                );
+            }
         }
     }
 }

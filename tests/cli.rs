@@ -429,3 +429,17 @@ fn help_completions_and_man_page_are_there() {
     assert!(shell.ok("--version").starts_with("evenly "));
     assert!(!Path::new("o.txt").exists());
 }
+
+#[test]
+fn meshes_are_made_by_other_methods_too() {
+    let shell = Shell::new();
+    shell.write("area.txt", "0 0\n2 0\n2 1\n0 1\n");
+    for method in ["opt-beta", "lloyd", "distmesh"] {
+        let record =
+            json(&shell.ok(&format!("mesh area.txt --spacing 0.1 --method {method} --iterations 20 -q --json --force -o area.obj")));
+        assert!(record["quality"]["min_angle_deg"].as_f64().unwrap() > 25.0);
+    }
+    for flags in ["--method lloyd --no-obtuse", "--iterations 20", "--method lloyd --iterations 0"] {
+        shell.refused(&format!("mesh area.txt --spacing 0.1 --force -o area.obj {flags}"));
+    }
+}

@@ -6,7 +6,10 @@ mod shapes;
 
 use std::collections::HashMap;
 
-use evenly::{CancelToken, EdgeKind, Error, Mesh, MeshEdge, MeshParams, Outcome, Polygon, RunContext, mesh, mesh_cells, mesh_quality};
+use evenly::{
+    CancelToken, DistMeshParams, EdgeKind, Error, LloydParams, Mesh, MeshEdge, MeshMethod, MeshParams, OptBetaParams, Outcome, Polygon,
+    RunContext, mesh, mesh_cells, mesh_quality,
+};
 use proptest::prelude::*;
 use shapes::{Ring, circle, comb, holed_square, l_shape, moved, needle, nested, passage, rectangle, slit, spiral, star};
 
@@ -72,16 +75,27 @@ fn shape(kind: usize, hardness: f64) -> Vec<Ring> {
     }
 }
 
+/// All methods; those that go on for so many passes with these.
+fn methods(iterations: usize) -> [MeshMethod; 4] {
+    [
+        MeshMethod::PushPull,
+        MeshMethod::OptBeta(OptBetaParams { beta: 0.75, iterations, ..OptBetaParams::default() }),
+        MeshMethod::Lloyd(LloydParams { iterations, ..LloydParams::default() }),
+        MeshMethod::DistMesh(DistMeshParams { iterations, ..DistMeshParams::default() }),
+    ]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(40) })]
     #[test]
     fn every_polygon_is_covered(
         kind in 0..8usize, hardness in 0.0..1.0f64, turn in 0.0..7.0f64, scale in -6.0..6.0f64, spacing in 0.2..0.9f64, growth in 0.1..1.0f64, seed in 0..1000u64,
-        is_non_obtuse in prop::bool::weighted(0.2),
+        is_non_obtuse in prop::bool::weighted(0.2), method in 0..4usize,
     ) {
         let scale = 10f64.powf(scale);
         let polygon = polygon(moved(&shape(kind, hardness), turn, scale, [3.0 * scale, -2.0 * scale]));
-        let params = MeshParams { growth, seed, is_non_obtuse, ..MeshParams::new(spacing * scale) };
+        let method = if is_non_obtuse { MeshMethod::PushPull } else { methods(30)[method] };
+        let params = MeshParams { growth, seed, is_non_obtuse, method, ..MeshParams::new(spacing * scale) };
         prove(&polygon, &meshed(&polygon, &params))?;
     }
 }
@@ -99,6 +113,37 @@ fn plain_domains_have_well_spaced_points_up_to_the_border() {
                 assert!(quality.min_angle_deg >= 41.0 && quality.max_angle_deg <= 97.0, "{quality:?}");
             }
         }
+    }
+}
+
+#[test]
+fn every_method_makes_meshes_that_are_better_than_the_papers() {
+    // Opt-beta's Table 1 ends at a beta of .988 and .932, and angles of 32 to 110 degrees.
+    for rings in [l_shape(), holed_square()] {
+        for (spacing, ratio) in [(0.0404, 0.988), (0.0202, 0.932)] {
+            for method in methods(200) {
+                let params = MeshParams { method, seed: 3, ..MeshParams::new(spacing) };
+                let polygon = polygon(rings.clone());
+                let mesh = meshed(&polygon, &params);
+                prove(&polygon, &mesh).unwrap();
+                let quality = mesh_quality(&mesh);
+                assert!(quality.min_angle_deg >= 35.0 && quality.max_angle_deg <= 110.0, "{method:?}: {quality:?}");
+                assert!(quality.beta <= ratio || !matches!(method, MeshMethod::OptBeta(_)), "{quality:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn spacings_that_vary_are_kept_by_lloyds_method_and_by_springs() {
+    let square = polygon(vec![rectangle([0.0, 0.0], [1.0, 1.0])]);
+    let wanted = |[x, _]: [f64; 2]| 0.01 + 0.09 * x;
+    let [_, _, lloyd, springs] = methods(100);
+    for method in [lloyd, springs] {
+        let mesh = meshed(&square, &MeshParams { wanted: Some(&wanted), method, ..MeshParams::new(0.1) });
+        let n_left = mesh.vertices.iter().filter(|p| p[0] < 0.2).count();
+        let n_right = mesh.vertices.iter().filter(|p| p[0] > 0.8).count();
+        assert!(n_left > 10 * n_right && mesh_quality(&mesh).min_angle_deg > 30.0, "{n_left} {n_right}");
     }
 }
 

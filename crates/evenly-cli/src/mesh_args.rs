@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgGroup, Args};
+use anyhow::bail;
+use clap::{ArgGroup, Args, ValueEnum};
+use evenly::{DistMeshParams, LloydParams, MeshMethod, OptBetaParams};
 use evenly_io::MeshFormat;
 
 use crate::parse::parse_count;
@@ -34,6 +36,12 @@ pub struct Mesh {
     /// The same seed gives the same mesh
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
+    /// How points find their places: on the border they move along it
+    #[arg(long, value_enum, default_value_t = Rule::PushPull, help_heading = "Method")]
+    pub method: Rule,
+    /// Passes of methods other than push-pull [default: lloyd 100, the others 200]
+    #[arg(long, value_name = "N", value_parser = parse_count, help_heading = "Method")]
+    pub iterations: Option<usize>,
     /// Let edges grow away from the border, by so much a length: 0.2 is gentle, 1 the most
     #[arg(long, value_name = "G", allow_negative_numbers = true, help_heading = "Size")]
     pub grade: Option<f64>,
@@ -71,6 +79,42 @@ pub struct Mesh {
     pub json: bool,
     #[command(flatten)]
     pub run: LongArgs,
+}
+
+/// How points find their places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Rule {
+    /// Push-pull optimization to beta 0.74, with points added and removed (Ahmed, Guo, Yan et al.)
+    PushPull,
+    /// Opt-beta: the least ratio of each cell by itself (Ebeida et al.)
+    OptBeta,
+    /// Lloyd's method: to the centroids of the Voronoi cells
+    Lloyd,
+    /// Springs between neighbours (Persson and Strang)
+    #[value(name = "distmesh")]
+    DistMesh,
+}
+
+impl Mesh {
+    /// The method with its parameters.
+    pub fn mesh_method(&self) -> anyhow::Result<MeshMethod> {
+        let iterations = |default: usize| self.iterations.unwrap_or(default);
+        let (lloyd, springs) = (LloydParams::default(), DistMeshParams::default());
+        Ok(match self.method {
+            Rule::PushPull if self.iterations.is_some() => {
+                bail!("--iterations needs another --method: push-pull goes on until points rest")
+            }
+            Rule::PushPull => MeshMethod::PushPull,
+            Rule::OptBeta => {
+                let params = OptBetaParams { beta: 0.75, ..OptBetaParams::default() };
+                MeshMethod::OptBeta(OptBetaParams { iterations: iterations(params.iterations), ..params })
+            }
+            Rule::Lloyd => MeshMethod::Lloyd(LloydParams { iterations: iterations(lloyd.iterations), seed: self.seed, ..lloyd }),
+            Rule::DistMesh => {
+                MeshMethod::DistMesh(DistMeshParams { iterations: iterations(springs.iterations), seed: self.seed, ..springs })
+            }
+        })
+    }
 }
 
 fn parse_mesh_format(text: &str) -> Result<MeshFormat, String> {

@@ -44,6 +44,8 @@ pub(crate) struct Star {
     pub beyond: Vec<DVec2>,
     /// And the walls of the domain.
     pub walls: Vec<Wall>,
+    /// In that plane, the direction along which alone the vertex can go; zero for one that stays. `None` where it can go anywhere.
+    pub rail: Option<DVec2>,
     /// In that plane, where the vertex goes.
     pub shift: DVec2,
     /// Room for a rule's own reckoning.
@@ -65,6 +67,8 @@ pub(crate) struct Senses {
     pub radii: Option<f64>,
     pub mass: bool,
     pub centroid: bool,
+    /// Whether cells of a mesh end at its border, with the vertex' own image behind it. Otherwise triangles count as they are.
+    pub echoes: bool,
 }
 
 /// A star's weights, as far as a rule has asked for them; the vectors are empty and the scale is 1 where the density is uniform.
@@ -220,7 +224,10 @@ impl Star {
             let (u, v) = (self.lengths[k], self.lengths[after]);
             // Two triangles: the vertex, the middle of a spoke, the circumcentre.
             let [half_u, half_v] = self.wedges[k].halves(u, v);
-            let (of_u, of_v) = (0.25 * u * half_u, 0.25 * v * half_v);
+            let (mut of_u, mut of_v) = (0.25 * u * half_u, 0.25 * v * half_v);
+            if !self.metric.spokes.is_empty() {
+                (of_u, of_v) = (of_u * self.relative_density(k), of_v * self.relative_density(after));
+            }
             let [along_u, along_v] = self.centre(k);
             let both = of_u + of_v;
             self.weights[k] += both * along_u + 0.5 * of_u;
@@ -229,6 +236,14 @@ impl Star {
         }
         let scale = if area > 0.0 { 1.0 / (3.0 * area) } else { 0.0 };
         self.weights.iter_mut().for_each(|weight| *weight *= scale);
+    }
+
+    /// A density by which centroids come to rest with the wanted spacings, halfway to the side across spoke `k`: their inverse to the fourth (Du, Faber and Gunzburger 1999, section 6.4). 1 is that at the
+    /// vertex.
+    fn relative_density(&self, k: usize) -> f64 {
+        // The stretch is the inverse of the spacing at the side.
+        let at_side = self.metric.scale / self.stretch(k);
+        (0.5 * (1.0 + at_side)).powi(-4)
     }
 
     /// The squared distance from the vertex, integrated over its Voronoi cell.

@@ -8,7 +8,7 @@ use evenly::{CancelToken, MeshParams, MeshQuality, Report, RunContext, expected_
 use evenly_io::{MeshFormat, Target, read_lines, read_polygon, read_positions, write_mesh, write_polygons};
 use serde::Serialize;
 
-use crate::mesh_args::Mesh;
+use crate::mesh_args::{Mesh, Rule};
 use crate::sizes::Sizes;
 use crate::talk::say;
 use crate::unmet::{Unmet, unmet};
@@ -24,6 +24,10 @@ const NAMED: usize = 5;
 pub fn run(args: &Mesh) -> anyhow::Result<ExitCode> {
     let begin = Instant::now();
     let targets = Targets::new(args)?;
+    let method = args.mesh_method()?;
+    if args.no_obtuse && args.method != Rule::PushPull {
+        bail!("--no-obtuse needs --method push-pull");
+    }
     let inputs = [Some(&args.input), args.sizes.as_ref(), args.density.path(), args.fixed.as_ref(), args.lines.as_ref()];
     input::require_one_stdin(inputs.into_iter().flatten())?;
     if let Some(tolerance) = args.curve_tolerance.filter(|&tolerance| !(tolerance > 0.0 && tolerance.is_finite())) {
@@ -49,6 +53,7 @@ pub fn run(args: &Mesh) -> anyhow::Result<ExitCode> {
             // As far as it grows.
             (Some(_), None) => Some(spacing.max(polygon.area().sqrt())),
         },
+        method,
         is_non_obtuse: args.no_obtuse,
         min_angle_deg: args.min_angle,
         fixed: fixed.clone(),

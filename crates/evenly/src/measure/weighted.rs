@@ -27,7 +27,7 @@ pub(super) fn weigh(domain: &Domain, field: &Field, positions: &[DVec2], spacing
     let mut mesh = LiveMesh::new(domain, Some(field.clone()), positions.to_vec(), order, spacing)?;
     let unit = spacing * spacing * n_points as f64 / domain.area();
     let seen = mesh.look(
-        Senses { lengths: Some(f64::INFINITY), radii: Some(0.0), mass: true, centroid: false },
+        Senses { lengths: Some(f64::INFINITY), radii: Some(0.0), mass: true, ..Senses::default() },
         |_, _, StarBuffer { star, sight, .. }| {
             let others = (0..star.n_spokes()).filter(|&k| !star.is_mirror[k]);
             let nearest = others.map(|k| star.lengths[k] * star.stretch(k)).fold(f64::INFINITY, f64::min);

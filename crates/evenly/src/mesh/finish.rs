@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::caps::Cap;
 use super::outline::{Of, Outline};
-use super::settle::Settled;
+use super::settled::Settled;
 use super::{EdgeKind, Mesh, MeshEdge};
 use crate::space::Domain;
 use crate::triangulation::{BORDER, Planar, Refinement, Refining, Triangulation};

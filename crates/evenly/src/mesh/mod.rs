@@ -3,8 +3,8 @@
 //! Ebeida, Awad, Ge, Mahmoud, Mitchell, Knupp and Wei, "Improving Spatial Coverage while Preserving the Blue Noise of Point Sets", Computer-Aided Design 46, 2014, doi
 //! 10.1016/j.cad.2013.08.015, section 7.0.1: points on the border move along it, corners stay, and beta bounds the angles.
 //!
-//! What differs, and why: points are moved by Push-Pull's rule, to one distance and one radius, which reaches a lower beta than Opt-beta's. At the border a star is seen once more as in a mirror, so
-//! the rule knows of none. The spacing is shorter where the border asks for it, and where points cannot come to rest some are added or removed.
+//! What differs, and why: points are moved by Push-Pull's rule, to one distance and one radius, which reaches a lower beta than Opt-beta's; [`MeshMethod`] has that one too, and others. At the border a
+//! star is seen once more as in a mirror, so rules know of none. The spacing is shorter where the border asks for it, and where points cannot come to rest some are added or removed.
 //!
 //! Cost: O(n log n); 15 to 30 visits a point where the spacing is the same everywhere, a hundred and more where it varies much. It does not promise any angle, though refinement at the end leaves none
 //! below 25 degrees but at sharper corners, and where the domain is thinner than a five-hundredth of the spacing.
@@ -15,21 +15,25 @@ mod border;
 mod caps;
 mod cells;
 mod finish;
+mod method;
+mod mover;
 mod outline;
 mod polish;
 mod quality;
 mod repair;
 mod scatter;
 mod settle;
+mod settled;
 mod state;
 
 use glam::DVec2;
 use serde::Serialize;
 
-use self::aim::Aim;
 use self::background::{Background, Grading, background, limit_growth};
 use self::caps::{Cap, cut_off};
 pub use self::cells::mesh_cells;
+pub use self::method::MeshMethod;
+use self::mover::Mover;
 use self::outline::Outline;
 pub use self::quality::{MeshQuality, mesh_quality};
 use self::scatter::{least_mass, scatter, total_mass};
@@ -58,7 +62,9 @@ pub struct MeshParams<'a> {
     pub largest: Option<f64>,
     /// By how much the spacing may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones.
     pub growth: f64,
-    /// No triangle shall be obtuse. That takes longer, and is not always reached.
+    /// How points find their places.
+    pub method: MeshMethod,
+    /// No triangle shall be obtuse. That takes longer, and is not always reached; only by Push-Pull.
     pub is_non_obtuse: bool,
     /// No angle shall be smaller, in degrees, but at the polygon's sharper corners; in [0, 35]. `None` for 25. More than 30 is not always reached.
     pub min_angle_deg: Option<f64>,
@@ -80,6 +86,7 @@ impl MeshParams<'_> {
             spacing,
             largest: None,
             growth: 0.25,
+            method: MeshMethod::PushPull,
             is_non_obtuse: false,
             min_angle_deg: None,
             fixed: Vec::new(),
@@ -116,6 +123,10 @@ impl MeshParams<'_> {
         }
         if !(self.growth > 0.0 && self.growth <= 1.0) {
             return invalid("growth", self.growth, "more than 0, and 1 at most");
+        }
+        self.method.validate()?;
+        if self.is_non_obtuse && self.method != MeshMethod::PushPull {
+            return Err(Error::InvalidParameter { name: "is_non_obtuse", value: "true".into(), expected: "false, but with Push-Pull" });
         }
         if let Some(least) = self.min_angle_deg.filter(|least| !(0.0..=35.0).contains(least)) {
             return invalid("min_angle_deg", least, "0 or more, and 35 at most");
@@ -215,26 +226,14 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     // 4. They find their places.
     run.enter(Phase::Optimize);
     let mut report = Report::new("mesh", 0);
-    let aims = if params.is_non_obtuse { (Aim::non_obtuse(), Aim::non_obtuse()) } else { (Aim::plain(), Aim::loose()) };
-    let rails: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
     let place = Place { domain: &domain, outline: &outline, spacing };
-    let mut settled = settle(state, place, aims, params.seed, run, &mut report)?;
-    // Whoever has interrupted wants the state reached, and soon.
-    let is_cancelled = run.is_cancelled();
-    if !is_cancelled {
-        polish::polish(&mut settled, &rails, &aims.0, params.seed);
-    }
-    let badness = settle::badness(&settled.triangulation, &aims.0);
+    let mover = Mover { method: &params.method, is_non_obtuse: params.is_non_obtuse, seed: params.seed };
+    let settled = settle(state, place, &mover, run, &mut report)?;
 
     // 5. What is left is refined, and the corners come back.
-    let least_deg = if is_cancelled { 0.0 } else { finish::refined_deg(params.min_angle_deg) };
+    let least_deg = if report.outcome == Outcome::Cancelled { 0.0 } else { finish::refined_deg(params.min_angle_deg) };
     let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, least_deg, 0.5 * floor);
     report.n_points = mesh.vertices.len();
-    report.outcome = match () {
-        () if is_cancelled => Outcome::Cancelled,
-        () if badness == 0.0 => Outcome::Converged,
-        () => Outcome::IterationLimit,
-    };
     if n_added > 0 {
         report.notes.push(format!("{n_added} points were added at the end, where triangles were thin"));
     }

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::aim::Aim;
-use super::settle::Settled;
+use super::settled::Settled;
 use crate::points::Random;
 use crate::space::snap;
 use crate::triangulation::{HalfEdges, Track, next, prev};

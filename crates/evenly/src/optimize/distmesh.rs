@@ -56,6 +56,10 @@ impl DistMeshParams {
         }
         validate_iterations(self.iterations)
     }
+
+    pub(crate) fn rule(&self) -> Springs {
+        Springs { length: self.pressure, step: self.step, tolerance: self.tolerance }
+    }
 }
 
 /// Lets the springs between `points` push, in place; their number and order stay.
@@ -65,12 +69,11 @@ impl DistMeshParams {
 /// [`Error::Degenerate`] where they cannot be triangulated. The points are untouched then.
 pub fn distmesh(points: &mut PointSet, params: &DistMeshParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
-    let rule = Springs { length: params.pressure, step: params.step, tolerance: params.tolerance };
-    relax("distmesh", &rule, points, params.iterations, params.seed, run)
+    relax("distmesh", &params.rule(), points, params.iterations, params.seed, run)
 }
 
 /// Goes where the springs push.
-struct Springs {
+pub(crate) struct Springs {
     length: f64,
     step: f64,
     tolerance: f64,
@@ -78,7 +81,7 @@ struct Springs {
 
 impl Rule for Springs {
     fn senses(&self) -> Senses {
-        Senses { lengths: Some(self.length), ..Senses::default() }
+        Senses { lengths: Some(self.length), echoes: true, ..Senses::default() }
     }
 
     fn visit(&self, star: &mut Star) -> bool {

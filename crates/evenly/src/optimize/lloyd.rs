@@ -52,6 +52,10 @@ impl LloydParams {
         }
         validate_iterations(self.iterations)
     }
+
+    pub(crate) fn rule(&self) -> ToCentroid {
+        ToCentroid { tolerance: self.tolerance }
+    }
 }
 
 /// Moves `points` towards the centroids of their cells, in place; their number and order stay.
@@ -71,17 +75,17 @@ impl LloydParams {
 /// ```
 pub fn lloyd(points: &mut PointSet, params: &LloydParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
-    relax("lloyd", &ToCentroid { tolerance: params.tolerance }, points, params.iterations, params.seed, run)
+    relax("lloyd", &params.rule(), points, params.iterations, params.seed, run)
 }
 
 /// Goes to the centroid, if it is farther than the tolerance.
-struct ToCentroid {
+pub(crate) struct ToCentroid {
     tolerance: f64,
 }
 
 impl Rule for ToCentroid {
     fn senses(&self) -> Senses {
-        Senses { centroid: true, ..Senses::default() }
+        Senses { centroid: true, echoes: true, ..Senses::default() }
     }
 
     fn visit(&self, star: &mut Star) -> bool {

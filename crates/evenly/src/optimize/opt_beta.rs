@@ -101,11 +101,27 @@ pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunCont
     let mut report = Report::new("opt-beta", points.n_points());
     let Some((domain, mesh)) = triangulated(points, &mut report, run)? else { return Ok(report) };
     let mut sweep = Sweep::new(mesh);
+    let best = to_least_ratio(&mut sweep, params, run, &mut report)?;
+    let (order, _) = sweep.into_last();
+    points.place(&domain, &order, &best);
+    keep_distinct(points);
+    if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
+        report.outcome = Outcome::LostToRounding;
+    }
+    report.note_limit();
+    Ok(report)
+}
+
+/// Sweeps until beta is reached, and says in the report how that has ended; what comes in may have reached it. Returns the places in the best state.
+pub(crate) fn to_least_ratio(
+    sweep: &mut Sweep,
+    params: &OptBetaParams,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> Result<Vec<DVec2>, Error> {
     let damping = params.damping.unwrap_or(if params.beta > LOOSE { 0.7 } else { 1.0 });
     let mut plan = Plan { order: Order::Rows, ..Plan::of_passes(params.iterations, 0) };
-
-    // Sweeps, until beta is reached; what comes in may have reached it.
-    let mut best = (beta(&mut sweep)?, sweep.places());
+    let mut best = (beta(sweep)?, sweep.places());
     report.energy.push(best.0);
     report.outcome = loop {
         if best.0 <= params.beta {
@@ -115,11 +131,11 @@ pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunCont
             break Outcome::IterationLimit;
         }
         plan.max_passes = report.iterations + 1;
-        let ending = sweep.run(&ToLeastRatio { damping }, &plan, run, &mut report);
+        let ending = sweep.run(&ToLeastRatio { damping }, &plan, run, report);
         if ending == Ending::Cancelled {
             break Outcome::Cancelled;
         }
-        let reached = beta(&mut sweep)?;
+        let reached = beta(sweep)?;
         report.energy.push(reached);
         if reached < best.0 {
             best = (reached, sweep.places());
@@ -128,14 +144,7 @@ pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunCont
             break if best.0 <= params.beta { Outcome::Converged } else { Outcome::IterationLimit };
         }
     };
-    let (order, _) = sweep.into_last();
-    points.place(&domain, &order, &best.1);
-    keep_distinct(points);
-    if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
-        report.outcome = Outcome::LostToRounding;
-    }
-    report.note_limit();
-    Ok(report)
+    Ok(best.1)
 }
 
 fn beta(sweep: &mut Sweep) -> Result<f64, Error> {
@@ -152,9 +161,17 @@ impl Rule for ToLeastRatio {
     const LOOKS_AROUND: bool = true;
 
     fn visit(&self, star: &mut Star) -> bool {
+        if star.rail == Some(DVec2::ZERO) {
+            return false;
+        }
         // Where cells are cut, the nearest cut them down to where the others do not matter.
         star.beyond.sort_unstable_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        let (place, _) = minimize(|at| local_ratio(star, at), DVec2::ZERO, SIDE, N_STEPS);
+        let ratio = |at: DVec2| local_ratio(star, at);
+        let side = SIDE / star.metric.scale;
+        let (place, _) = match star.rail {
+            None => minimize(ratio, [DVec2::ZERO, DVec2::new(side, 0.0), DVec2::new(0.0, side)], N_STEPS),
+            Some(direction) => minimize(ratio, [DVec2::ZERO, side * direction], N_STEPS),
+        };
         star.shift = self.damping * place;
         star.shift != DVec2::ZERO
     }

@@ -261,6 +261,10 @@ impl Sweep {
         self.mesh.distance_and_radius()
     }
 
+    pub fn n_points(&self) -> usize {
+        self.mesh.n_points()
+    }
+
     /// The places of the points, as the mesh has them.
     pub fn places(&self) -> Vec<DVec2> {
         self.mesh.points()

@@ -53,14 +53,18 @@ impl Bonds {
 
     /// The part of a move that a point can make.
     pub fn along(&self, point: u32, by: DVec2) -> DVec2 {
+        self.rail(point).map_or(by, |direction| direction * by.dot(direction))
+    }
+
+    /// The direction in which alone a point can move; zero for one that stays. `None` for one that moves freely.
+    fn rail(&self, point: u32) -> Option<DVec2> {
         match self.tracks[point as usize] {
-            Track::Free => by,
+            Track::Free => None,
             Track::Rail(rail) => {
                 let [from, to] = self.rails[rail as usize];
-                let direction = (to - from).normalize_or_zero();
-                direction * by.dot(direction)
+                Some((to - from).normalize_or_zero())
             }
-            Track::Fixed => DVec2::ZERO,
+            Track::Fixed => Some(DVec2::ZERO),
         }
     }
 
@@ -132,6 +136,11 @@ impl Held {
     /// The place nearest to `q` where a vertex that is at `at` may stand.
     pub fn land(&self, v: u32, at: DVec2, q: DVec2) -> DVec2 {
         self.bonds.land(self.source[v as usize], at, q)
+    }
+
+    /// The direction in which alone a vertex can move; zero for one that stays. `None` for one that moves freely.
+    pub fn rail(&self, v: u32) -> Option<DVec2> {
+        self.bonds.rail(self.source[v as usize])
     }
 
     pub fn is_on_rail(&self, v: u32) -> bool {

@@ -3,6 +3,7 @@
 mod check;
 mod chunks;
 mod delaunay;
+mod echoes;
 mod frame;
 mod half_edges;
 mod held;

@@ -6,6 +6,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::echoes::{close, hide, reflect};
 use super::half_edges::{BORDER, next};
 use super::held::Held;
 use super::live::{LEAST_DENSITY, LiveMesh, Outside};
@@ -99,12 +100,12 @@ impl LiveMesh {
         Ok(seen.collect())
     }
 
-    /// The smallest distance of two points and the largest circumradius, in spacings.
+    /// The smallest distance of two points and the largest circumradius, in the wanted spacings where a mesh varies them, and in spacings elsewhere.
     pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
         let seen = self.look(Senses::default(), |_, _, StarBuffer { star, .. }| {
-            let neighbours = star.lengths.iter().zip(&star.is_mirror).filter(|(_, is_mirror)| !**is_mirror);
-            let nearest = neighbours.map(|(&length, _)| length).fold(f64::INFINITY, f64::min);
-            [nearest, (0..star.n_spokes()).map(|k| star.circumradius(k)).fold(0.0, f64::max)]
+            let neighbours = (0..star.n_spokes()).filter(|&k| !star.is_mirror[k]);
+            let nearest = neighbours.map(|k| star.lengths[k] * star.stretch(k)).fold(f64::INFINITY, f64::min);
+            [nearest, (0..star.n_spokes()).map(|k| star.weighted_radius(k)).fold(0.0, f64::max)]
         })?;
         Ok(seen.into_iter().fold([f64::INFINITY, 0.0], |a, b| [a[0].min(b[0]), a[1].max(b[1])]))
     }
@@ -145,7 +146,19 @@ impl LiveMesh {
         star.beyond.clear();
         star.beyond.extend(near.iter().filter(|&&other| !is_in_ring(other)).filter_map(|&other| place(other)));
         star.walls.clear();
-        if self.domain.border.is_some() {
+        star.rail = None;
+        if let Some(held) = &self.held {
+            star.rail = held.rail(v);
+            for (spoke, after) in moving.iter().zip(moving[1..].iter().chain(&moving[..1])) {
+                if spoke.half_edge != BORDER && self.is_wall(held, spoke, after) {
+                    let normal = -(after.way - spoke.way).perp().normalize_or_zero();
+                    star.walls.push(Wall { normal, distance: scale * spoke.way.dot(normal) });
+                }
+            }
+            if moving[moving.len() - 1].half_edge == BORDER {
+                reflect(star);
+            }
+        } else if self.domain.border.is_some() {
             let walls = spokes.iter().filter(|spoke| spoke.vertex == MIRROR);
             star.walls.extend(walls.map(|spoke| Wall { normal: spoke.way.normalize_or_zero(), distance: 0.5 * spoke.length }));
         } else if !self.domain.is_periodic {
@@ -213,7 +226,7 @@ impl LiveMesh {
 
     /// Turns the spokes in the buffer into a star; near a wall that of the cell which the walls clip.
     fn fill(&self, v: u32, buffer: &mut StarBuffer) {
-        let StarBuffer { star, spokes, wall_cell, sight, .. } = buffer;
+        let StarBuffer { star, spokes, senses, wall_cell, sight, .. } = buffer;
         sight.outline.clear();
         let scale = 1.0 / self.spacing;
         star.clear();
@@ -230,8 +243,17 @@ impl LiveMesh {
             let cos = spoke.dot * area_scale * over_product;
             star.wedges.push(Wedge { cos, sin: cross * over_product, cosecant: product * product * inverse });
         }
-        if self.held.is_some() {
-            close(star, spokes);
+        if let Some(held) = &self.held {
+            if senses.echoes {
+                self.wall_off(held, v, star, spokes);
+            }
+            let n = spokes.len();
+            if spokes[n - 1].half_edge == BORDER {
+                close(star, spokes);
+                if senses.echoes && held.is_on_rail(v) {
+                    hide(star, spokes, n);
+                }
+            }
         } else if !self.domain.is_periodic && self.domain.border.is_none() {
             let at = self.mesh.position(v);
             let wall = at.min(self.domain.size - at).min_element() * scale;
@@ -241,26 +263,6 @@ impl LiveMesh {
                 wall_cell.clip(at, self.domain.size, neighbours.map(|spoke| (spoke.vertex, spoke.way)));
                 wall_cell.fill(star, spokes, scale);
             }
-        }
-    }
-}
-
-/// Where the spokes are a fan at a border, what they show is seen there once more, as in a mirror: the star so goes all around, and rules need not know of borders. At a
-/// corner it goes around by twice the corner's angle.
-fn close(star: &mut Star, spokes: &mut Vec<Spoke>) {
-    let n = spokes.len();
-    if spokes[n - 1].half_edge != BORDER {
-        return;
-    }
-    star.wedges.truncate(n - 1);
-    let axis = spokes[0].way.normalize_or_zero();
-    for k in (0..n - 1).rev() {
-        star.wedges.push(star.wedges[k]);
-        if k > 0 {
-            let way = 2.0 * axis * spokes[k].way.dot(axis) - spokes[k].way;
-            spokes.push(Spoke { way, is_echo: true, ..spokes[k] });
-            star.lengths.push(star.lengths[k]);
-            star.is_mirror.push(false);
         }
     }
 }

@@ -29,7 +29,7 @@ impl Rule for PushPull {
             lengths: Some(self.min_distance.unwrap_or(LEAST_DISTANCE)),
             radii: self.coverage_radius,
             mass: self.capacity_tolerance.is_some(),
-            centroid: false,
+            ..Senses::default()
         }
     }
 
