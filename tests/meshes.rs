@@ -293,6 +293,16 @@ fn error(rings: Vec<Ring>) -> String {
 }
 
 #[test]
+fn what_is_clean_stays_as_it_is() {
+    assert_eq!(polygon(l_shape()).rings(), l_shape());
+    for rings in [l_shape(), holed_square(), star(9, 0.4), nested(5), comb(6, 0.3), slit(1e-6)] {
+        let once = polygon(rings);
+        let twice = polygon(once.rings().to_vec());
+        assert_eq!((twice.rings(), twice.area(), twice.repairs().len()), (once.rings(), once.area(), 0));
+    }
+}
+
+#[test]
 fn what_leaves_in_doubt_is_an_error_with_its_place() {
     let bow_tie = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
     assert!(error(vec![bow_tie]).ends_with("at (0.5, 0.5)"));

@@ -2,18 +2,19 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::ExitCode;
 
 use anyhow::anyhow;
 use evenly::Error;
 use evenly_io::{Format, Target};
 use serde_json::Value;
 
+use crate::session::DONE;
+
 /// Prints on stdout: the JSON, or else the table.
-pub fn print(json: &Value, is_json: bool, table: impl FnOnce() -> String) -> anyhow::Result<ExitCode> {
+pub fn print(json: &Value, is_json: bool, table: impl FnOnce() -> String) -> anyhow::Result<u8> {
     let text = if is_json { serde_json::to_string_pretty(json)? + "\n" } else { table() };
     Target::new("-".as_ref(), Some(Format::Txt), false)?.write(text.as_bytes())?;
-    Ok(ExitCode::SUCCESS)
+    Ok(DONE)
 }
 
 /// The same error, with the name that the user knows: of the flag, by pairs of a parameter and its flag, or of the file.

@@ -12,7 +12,6 @@ use crate::shared_args::{DensityArgs, LongArgs};
 
 #[derive(Args)]
 #[command(
-    group = ArgGroup::new("size").required(true).args(["spacing", "n_triangles"]),
     after_help = "Examples:\n  evenly mesh area.geojson --spacing 50 -o area.msh\n  evenly mesh plate.svg -n 20000 --no-obtuse -o plate.vtu --cells cells.geojson\n\n\
                   Polygons: GeoJSON, WKT, SVG (what its shapes enclose), or text: x y a line, a blank line between rings, holes inside.\n\
                   Red triangles in drawings have an angle below 25 degrees, light red ones are obtuse.\n\
@@ -21,18 +20,49 @@ use crate::shared_args::{DensityArgs, LongArgs};
 pub struct Mesh {
     /// A polygon, with holes and in several parts as may be; - is stdin
     pub input: PathBuf,
-    /// The wanted length of edges, in the polygon's units; shorter where the border is detailed or the domain narrow
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
-    pub spacing: Option<f64>,
-    /// About how many triangles, instead; there are more where the border is detailed
-    #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
-    pub n_triangles: Option<usize>,
+    #[command(flatten)]
+    pub wishes: MeshWishes,
     /// Where the mesh goes: .msh (Gmsh 4.1) .vtu .obj .ply .off .stl .geojson .npz, or drawn: .svg .png .pdf; - is stdout
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
     /// The output's format, if its name does not tell
     #[arg(long, value_parser = parse_mesh_format)]
     pub format: Option<MeshFormat>,
+    /// Wanted lengths of edges at points, as x y length a line, where they are to be shorter; they grow from there by --grade, or by 0.25
+    #[arg(long, value_name = "FILE", help_heading = "Size")]
+    pub sizes: Option<PathBuf>,
+    /// Points that become vertices, as .txt, .csv or .npy
+    #[arg(long, value_name = "FILE", help_heading = "Constraints")]
+    pub fixed: Option<PathBuf>,
+    /// Lines inside that become edges: GeoJSON, WKT, SVG, or text with a blank line between them
+    #[arg(long, value_name = "FILE", help_heading = "Constraints")]
+    pub lines: Option<PathBuf>,
+    /// How far off flattened curves of an SVG may be, in its units [default: a thousandth of its size]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Constraints")]
+    pub curve_tolerance: Option<f64>,
+    /// The vertices' Voronoi cells, clipped at the border, as .geojson
+    #[arg(long, value_name = "OUT", help_heading = "Output")]
+    pub cells: Option<PathBuf>,
+    /// Write the run's whole record, as JSON
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub report: Option<PathBuf>,
+    /// Print the run's whole record on stdout, as JSON
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+    #[command(flatten)]
+    pub run: LongArgs,
+}
+
+/// What a mesh is to be.
+#[derive(Args)]
+#[command(group = ArgGroup::new("size").required(true).args(["spacing", "n_triangles"]))]
+pub struct MeshWishes {
+    /// The wanted length of edges, in the polygon's units; shorter where the border is detailed or the domain narrow
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    pub spacing: Option<f64>,
+    /// About how many triangles, instead; there are more where the border is detailed
+    #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
+    pub n_triangles: Option<usize>,
     /// The same seed gives the same mesh
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -48,37 +78,14 @@ pub struct Mesh {
     /// The longest edges wanted, where they grow [default: no limit with --grade]
     #[arg(long, value_name = "H", allow_negative_numbers = true, requires = "grade", help_heading = "Size")]
     pub max_spacing: Option<f64>,
-    /// Wanted lengths of edges at points, as x y length a line, where they are to be shorter; they grow from there by --grade, or by 0.25
-    #[arg(long, value_name = "FILE", help_heading = "Size")]
-    pub sizes: Option<PathBuf>,
     #[command(flatten)]
     pub density: DensityArgs,
-    /// Points that become vertices, as .txt, .csv or .npy
-    #[arg(long, value_name = "FILE", help_heading = "Constraints")]
-    pub fixed: Option<PathBuf>,
-    /// Lines inside that become edges: GeoJSON, WKT, SVG, or text with a blank line between them
-    #[arg(long, value_name = "FILE", help_heading = "Constraints")]
-    pub lines: Option<PathBuf>,
-    /// How far off flattened curves of an SVG may be, in its units [default: a thousandth of its size]
-    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Constraints")]
-    pub curve_tolerance: Option<f64>,
     /// No angle shall be smaller, in degrees, up to 35; but at sharper corners of the polygon
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, help_heading = "Demands")]
     pub min_angle: Option<f64>,
     /// No triangle shall be obtuse
     #[arg(long, help_heading = "Demands")]
     pub no_obtuse: bool,
-    /// The vertices' Voronoi cells, clipped at the border, as .geojson
-    #[arg(long, value_name = "OUT", help_heading = "Output")]
-    pub cells: Option<PathBuf>,
-    /// Write the run's whole record, as JSON
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub report: Option<PathBuf>,
-    /// Print the run's whole record on stdout, as JSON
-    #[arg(long, help_heading = "Output")]
-    pub json: bool,
-    #[command(flatten)]
-    pub run: LongArgs,
 }
 
 /// How points find their places.
@@ -95,7 +102,7 @@ pub enum Rule {
     DistMesh,
 }
 
-impl Mesh {
+impl MeshWishes {
     /// The method with its parameters.
     pub fn mesh_method(&self) -> anyhow::Result<MeshMethod> {
         let iterations = |default: usize| self.iterations.unwrap_or(default);

@@ -1,6 +1,8 @@
 //! A run's whole record, for `--report` and `--json`; and its recipe, for files with room for a comment.
 
 use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::sync::OnceLock;
 
 use evenly::{Measures, Report, Space, UnmetTarget, angle_bounds_deg};
 use serde::Serialize;
@@ -44,9 +46,17 @@ pub fn recipe(seed: Option<u64>) -> String {
     format!("evenly {VERSION}: {}{seed}", command())
 }
 
+static COMMAND: OnceLock<String> = OnceLock::new();
+
+/// Keeps the words of the command line, the first of which is the program.
+pub fn keep_command(words: &[OsString]) {
+    let quoted = |word: String| if word.contains(' ') { format!("'{word}'") } else { word };
+    let words = words.iter().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
+    let command = std::iter::once("evenly".to_owned()).chain(words).collect::<Vec<_>>().join(" ");
+    COMMAND.get_or_init(|| command);
+}
+
 /// The command as it was given, without the way to the program.
 pub fn command() -> String {
-    let quoted = |word: String| if word.contains(' ') { format!("'{word}'") } else { word };
-    let words = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
-    std::iter::once("evenly".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+    COMMAND.get().cloned().unwrap_or_default()
 }

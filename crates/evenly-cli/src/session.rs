@@ -1,21 +1,23 @@
 //! One run from the command line: threads, progress, Ctrl-C, the clock, and what is written at the end.
 
 use std::collections::BTreeMap;
-use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure, warp_isotropic};
+use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
 use evenly_io::{Draw, Target, write_points};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::RunArgs;
+use crate::improve::{KEPT, is_nearer, notes, warp_for};
 use crate::interrupt;
 use crate::method::Method;
 use crate::optimizer::Optimizer;
 use crate::record::{self, Record};
 use crate::talk::say;
 
+/// Done: all exit codes are numbers, so that other faces can read them.
+pub const DONE: u8 = 0;
 /// Done, but what was asked for was not reached.
 pub const NOT_REACHED: u8 = 1;
 
@@ -91,18 +93,9 @@ impl<'a> Session<'a> {
     }
 
     /// Optimises points, and finishes.
-    pub fn optimize(
-        mut self,
-        mut points: PointSet,
-        method: Method,
-        optimizer: Box<dyn Optimizer>,
-        is_warped: bool,
-    ) -> anyhow::Result<ExitCode> {
+    pub fn optimize(mut self, mut points: PointSet, method: Method, optimizer: Box<dyn Optimizer>, is_warped: bool) -> anyhow::Result<u8> {
         self.seed = self.seed.or(optimizer.seed());
-        // By a density every method begins with points that follow it.
-        let by_density = (!points.density().is_uniform()).then_some(warp_isotropic as fn(&mut PointSet));
-        let can_warp = is_warped && points.n_points() >= 3 && points.space().region().is_none();
-        let warp = optimizer.warp().or(by_density).filter(|_| can_warp);
+        let warp = warp_for(&points, &*optimizer, is_warped);
         let start = (warp.is_some() && optimizer.targets().is_some()).then(|| points.clone());
         if let Some(warp) = warp {
             self.time("warp", || warp(&mut points));
@@ -125,36 +118,21 @@ impl<'a> Session<'a> {
         let report = done?;
         clock.stop();
         self.seconds.extend(clock.seconds);
-        for note in &report.notes {
-            self.note(note.clone());
+        for note in notes(&report) {
+            self.note(note);
         }
-        if report.coincident_points > 0 {
-            self.note(format!("{} points shared their place with another and were moved apart", report.coincident_points));
-        }
-        if report.was_collinear {
-            self.note("all points lay on one line and were spread first".into());
-        }
-        if report.outcome != Outcome::Converged
-            && points.density().is_uniform()
-            && let Some(start) = start
-            && self.is_nearer(&start, &points, &*optimizer)
+        if let Some(start) = start
+            && self.time("measure", || is_nearer(&start, &points, &report, &*optimizer))
         {
-            self.note("the points that came in miss the targets by less, and are written".into());
+            self.note(KEPT.into());
             points = start;
         }
         self.optimizer = Some(optimizer);
         self.finish(points, method, Some(report))
     }
 
-    /// Whether the first set misses the targets by less than the second.
-    fn is_nearer(&mut self, first: &PointSet, second: &PointSet, optimizer: &dyn Optimizer) -> bool {
-        let Some(targets) = optimizer.targets() else { return false };
-        let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| targets.worst_miss(&measures));
-        self.time("measure", || miss(first) < miss(second))
-    }
-
     /// Measures the points, writes them and the record, and says how it went.
-    pub fn finish(mut self, points: PointSet, method: Method, run: Option<Report>) -> anyhow::Result<ExitCode> {
+    pub fn finish(mut self, points: PointSet, method: Method, run: Option<Report>) -> anyhow::Result<u8> {
         let has_targets = self.optimizer.as_ref().is_some_and(|optimizer| optimizer.targets().is_some());
         let is_wanted = !self.args.quiet || self.args.json || self.report.is_some() || has_targets;
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
@@ -196,10 +174,10 @@ impl<'a> Session<'a> {
             Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
         }
         Ok(match outcome {
-            _ if self.cancel.is_cancelled() => ExitCode::from(interrupt::CODE),
-            _ if has_missed => ExitCode::from(NOT_REACHED),
-            Some(Outcome::IterationLimit | Outcome::LostToRounding) if is_unproved => ExitCode::from(NOT_REACHED),
-            _ => ExitCode::SUCCESS,
+            _ if self.cancel.is_cancelled() => interrupt::CODE,
+            _ if has_missed => NOT_REACHED,
+            Some(Outcome::IterationLimit | Outcome::LostToRounding) if is_unproved => NOT_REACHED,
+            _ => DONE,
         })
     }
 

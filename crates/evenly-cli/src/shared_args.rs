@@ -83,6 +83,12 @@ impl DensityArgs {
     }
 }
 
+/// The density of a picture and what is made of its tones, in words.
+pub fn density_of(words: &str) -> anyhow::Result<Density> {
+    let density = parse_density(words).map_err(anyhow::Error::msg)?;
+    DensityArgs { density: Some(density) }.density()
+}
+
 fn parse_density(text: &str) -> Result<DensitySpec, String> {
     let known = |options: &str| options.split(',').all(|option| ["invert", "contrast", "gamma", "floor"].contains(&name_of(option)));
     match text.rsplit_once(':') {

@@ -1,10 +1,7 @@
 //! A wanted spacing for every place: from points that have one, or from a picture's tones.
 
 use anyhow::bail;
-use evenly::{Polygon, Space};
-use evenly_io::read_rows;
-
-use crate::mesh_args::Mesh;
+use evenly::{Density, Polygon, Space};
 
 /// A grid of densities spans the polygon's frame with so many cells along its longer side.
 const CELLS: f64 = 512.0;
@@ -19,26 +16,24 @@ pub enum Sizes {
 }
 
 impl Sizes {
-    /// What the arguments ask for; `None` if that is the same spacing everywhere.
-    pub fn new(args: &Mesh, polygon: &Polygon, growth: f64) -> anyhow::Result<Option<Self>> {
-        if args.sizes.is_some() && args.density.is_given() {
-            bail!("--sizes and --density both say how long edges are; give one");
-        }
-        if let Some(path) = &args.sizes {
-            let points = read_rows(path)?;
-            if let Some([x, y, length]) = points.iter().find(|point| point[2] <= 0.0) {
-                bail!("{}: the length at ({x}, {y}) is {length}; it must be positive", path.display());
+    /// What points with a spacing each, or a density, ask for; `None` if that is the same spacing everywhere.
+    pub fn new(points: Option<Vec<[f64; 3]>>, density: Option<Density>, polygon: &Polygon, growth: f64) -> anyhow::Result<Option<Self>> {
+        let density = match (points, density) {
+            (Some(_), Some(_)) => bail!("--sizes and --density both say how long edges are; give one"),
+            (None, None) => return Ok(None),
+            (None, Some(density)) => density,
+            (Some(points), None) => {
+                if let Some([x, y, length]) = points.iter().find(|point| point[2] <= 0.0) {
+                    bail!("--sizes: the length at ({x}, {y}) is {length}; it must be positive");
+                }
+                return Ok(Some(Self::Points(points, growth)));
             }
-            return Ok(Some(Self::Points(points, growth)));
-        }
-        if !args.density.is_given() {
-            return Ok(None);
-        }
+        };
         let frame: Space = (*polygon.frame()).into();
         let size = frame.size();
         let scale = CELLS / size[0].max(size[1]);
         let n_cells = size.map(|side| ((side * scale).round() as usize).max(1));
-        let density = args.density.density()?.resampled(n_cells[0], n_cells[1]);
+        let density = density.resampled(n_cells[0], n_cells[1]);
         // Rows of pictures run from above.
         let mean = density.iter().sum::<f64>() / density.len() as f64;
         let spacing_of = |&density: &f64| (mean / density.max(f64::MIN_POSITIVE)).sqrt().min(SPARSEST);

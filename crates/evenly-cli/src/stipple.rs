@@ -1,5 +1,6 @@
 //! From a picture to a drawing: what each pen draws, where on the paper, how large the dots are, and how true the tone is.
 
+mod dots;
 mod edges;
 mod ink;
 mod paper;
@@ -7,9 +8,9 @@ mod pen;
 mod spread;
 mod tone;
 
+pub use dots::{Dots, DotsParams, dots};
 pub use edges::edges_of;
 pub use ink::{Ink, Tones, shares};
 pub use paper::Paper;
-pub use pen::{dot_areas, widest_dot};
-pub use spread::{optimizer, spread};
+pub use spread::optimizer;
 pub use tone::{ToneReport, Wanted};

@@ -35,18 +35,8 @@ pub struct Stipple {
     /// The same seed gives the same dots
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
-    /// Light counts instead of dark, as for a white pen on black paper
-    #[arg(long, help_heading = "Tone")]
-    pub invert: bool,
-    /// Spread tones from middle grey by this factor
-    #[arg(long, value_name = "C", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Tone")]
-    pub contrast: f64,
-    /// Raise darkness, from 0 to 1, to this power: more than 1 lightens middle tones
-    #[arg(long, value_name = "G", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Tone")]
-    pub gamma: f64,
-    /// The least darkness, from 0 to 1: more than 0 leaves no paper empty
-    #[arg(long, value_name = "F", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Tone")]
-    pub floor: f64,
+    #[command(flatten)]
+    pub tone: ToneArgs,
     /// One black layer, or a layer a colour
     #[arg(long, value_enum, default_value = "black", help_heading = "Drawing")]
     pub layers: Layers,
@@ -123,7 +113,24 @@ pub enum Edges {
     Delaunay,
 }
 
-impl Stipple {
+/// How dark a picture's tones are to be.
+#[derive(Args, Clone, Copy)]
+pub struct ToneArgs {
+    /// Light counts instead of dark, as for a white pen on black paper
+    #[arg(long, help_heading = "Tone")]
+    invert: bool,
+    /// Spread tones from middle grey by this factor
+    #[arg(long, value_name = "C", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Tone")]
+    contrast: f64,
+    /// Raise darkness, from 0 to 1, to this power: more than 1 lightens middle tones
+    #[arg(long, value_name = "G", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Tone")]
+    gamma: f64,
+    /// The least darkness, from 0 to 1: more than 0 leaves no paper empty
+    #[arg(long, value_name = "F", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Tone")]
+    floor: f64,
+}
+
+impl ToneArgs {
     /// # Errors
     /// A number out of its range.
     pub fn tone(&self) -> anyhow::Result<Tone> {

@@ -20,11 +20,11 @@ mod text;
 
 pub use drawing::{Drawing, Layer, Marks};
 pub use error::Error;
-pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture};
+pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture, rendered};
 pub use file::{Target, make_folder, read_positions, read_rows};
 pub use format::Format;
 pub use image::{read_image, write_image};
-pub use meshes::{MeshFormat, write_mesh, write_polygons};
+pub use meshes::{MeshFormat, mesh_svg, write_mesh, write_polygons};
 pub use output::{write_figure, write_points};
 pub use photograph::{Photograph, Tone, luma};
 pub use scraps::Scraps;

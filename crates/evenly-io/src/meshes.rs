@@ -92,6 +92,11 @@ pub fn write_mesh(mesh: &Mesh, format: MeshFormat, recipe: &str, target: &Target
     target.write(&bytes)
 }
 
+/// A mesh drawn as SVG.
+pub fn mesh_svg(mesh: &Mesh) -> String {
+    mesh_figure(mesh, "")
+}
+
 /// Writes polygons, such as Voronoi cells, as GeoJSON, a feature each.
 ///
 /// # Errors

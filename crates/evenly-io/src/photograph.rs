@@ -57,6 +57,12 @@ impl Photograph {
         Ok(Self { name, pixels })
     }
 
+    /// A picture of these colours, red, green, blue and opacity from 0 to 1, row by row from the top; `None` where they are not `width * height`.
+    pub fn of_colours(name: &str, [width, height]: [usize; 2], colours: &[[f32; 4]]) -> Option<Self> {
+        let pixels = ImageBuffer::from_raw(width.try_into().ok()?, height.try_into().ok()?, colours.as_flattened().to_vec())?;
+        (colours.len() == width * height).then(|| Self { name: name.into(), pixels: DynamicImage::ImageRgba32F(pixels) })
+    }
+
     /// Its name for messages.
     pub fn name(&self) -> &str {
         &self.name

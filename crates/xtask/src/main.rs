@@ -1,10 +1,14 @@
-//! The project's own chores: `cargo xtask test | bench | gallery`.
+//! The project's own chores: `cargo xtask test | python | bench | gallery`.
 
+mod python;
+
+use std::ffi::OsStr;
 use std::process::{Command, ExitCode};
 
 const USAGE: &str = "\
 usage: cargo xtask CHORE
-  test           all tests: units, laws, numbers, the command line, the examples in the documentation
+  test           all tests: units, laws, numbers, the command line, the examples in the documentation, and the Python package's
+  python         the Python package's tests alone: in an environment of its own, target/python
   bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh]
                  the table of speed and quality, measured on this machine
   gallery        draws the pictures of the README, and the pages of docs/, anew: some five minutes";
@@ -13,7 +17,8 @@ fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     let is_done = match args[..] {
-        ["test"] => cargo(&["test", "--workspace", "--locked"]),
+        ["test"] => cargo(&["test", "--workspace", "--locked"]) && python::test(),
+        ["python"] => python::test(),
         ["bench", ref wanted @ ..] => cargo(&[&["bench", "--package", "evenly", "--bench", "table", "--"], wanted].concat()),
         ["gallery"] => gallery(),
         _ => {
@@ -89,11 +94,16 @@ fn gallery() -> bool {
 }
 
 fn cargo(args: &[&str]) -> bool {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    match Command::new(cargo).args(args).status() {
+    run(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()), args)
+}
+
+/// Runs a program; whether it went well.
+fn run(program: impl AsRef<OsStr>, args: &[&str]) -> bool {
+    let program = program.as_ref();
+    match Command::new(program).args(args).status() {
         Ok(status) => status.success(),
         Err(error) => {
-            eprintln!("cargo cannot be run: {error}");
+            eprintln!("{} cannot be run: {error}", program.display());
             false
         }
     }

@@ -1,7 +1,6 @@
 //! `evenly analyze`: the proof.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::{Context as _, bail};
 use evenly::{
@@ -15,7 +14,7 @@ use crate::measured::{self, fields, line, shown};
 use crate::measuring_args::Analyze;
 use crate::{input, record, session};
 
-pub fn run(args: &Analyze) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Analyze) -> anyhow::Result<u8> {
     let space = args.space.space()?;
     let plot = args.plot.as_ref().map(|path| Target::figure(path, args.measured.force)).transpose()?;
     if args.local && args.inputs.len() > 1 {

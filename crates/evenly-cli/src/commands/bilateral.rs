@@ -1,7 +1,6 @@
 //! `evenly bilateral`: how well a few pixels, chosen by points, stand for all.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::bail;
 use evenly::{BilateralParams, bilateral, subsampled_bilateral};
@@ -10,7 +9,7 @@ use evenly_io::{Target, read_image, write_image};
 use crate::measuring_args::Bilateral;
 use crate::{input, measured, record, session};
 
-pub fn run(args: &Bilateral) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Bilateral) -> anyhow::Result<u8> {
     let target = |path: &Option<PathBuf>| path.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose();
     let (output, full) = (target(&args.output)?, target(&args.full)?);
     if output.as_ref().zip(full.as_ref()).is_some_and(|(output, full)| output.is_same(full)) {

@@ -1,6 +1,5 @@
 //! `evenly compare`: several methods on the same points.
 
-use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::bail;
@@ -19,7 +18,7 @@ use crate::{input, interrupt, record, session};
 /// Points in a method's picture.
 const SHOWN: usize = 600;
 
-pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<u8> {
     let space = args.space.space()?;
     let methods = if args.methods.is_empty() { Method::all_in(&space) } else { args.methods.clone() };
     refuse_others_flags(&methods, flags)?;
@@ -63,7 +62,7 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
         Some((kind, target)) => target.write(text(*kind)?.as_bytes())?,
         None => Target::any("-".as_ref(), false)?.write(text(Kind::Text)?.as_bytes())?,
     }
-    Ok(if runner.cancel.is_cancelled() { ExitCode::from(interrupt::CODE) } else { ExitCode::SUCCESS })
+    Ok(if runner.cancel.is_cancelled() { interrupt::CODE } else { session::DONE })
 }
 
 struct Runner<'a> {

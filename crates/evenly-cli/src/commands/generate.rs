@@ -1,7 +1,5 @@
 //! `evenly generate`: points from nothing.
 
-use std::process::ExitCode;
-
 use anyhow::Context as _;
 use clap::ArgMatches;
 
@@ -11,7 +9,7 @@ use crate::method::{Method, refuse_others_flags};
 use crate::method_args::start_around;
 use crate::session::Session;
 
-pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<u8> {
     refuse_others_flags(&[args.method], flags)?;
     let space = args.space.space()?;
     input::require_one_stdin(args.density.path().into_iter().chain(args.space.path()).chain(args.fixed.path()))?;

@@ -1,34 +1,27 @@
 //! `evenly mesh`: triangles in a polygon.
 
-use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, MeshParams, MeshQuality, Report, RunContext, expected_triangles, mesh, mesh_cells, mesh_quality};
-use evenly_io::{MeshFormat, Target, read_lines, read_polygon, read_positions, write_mesh, write_polygons};
+use evenly::{CancelToken, MeshQuality, Report, RunContext, mesh_cells};
+use evenly_io::{MeshFormat, Target, read_lines, read_polygon, read_positions, read_rows, write_mesh, write_polygons};
 use serde::Serialize;
+use serde_json::Value;
 
-use crate::mesh_args::{Mesh, Rule};
-use crate::sizes::Sizes;
+use crate::mesh_args::Mesh;
+use crate::meshed::{Given, Meshed, meshed};
 use crate::talk::say;
-use crate::unmet::{Unmet, unmet};
-use crate::{input, interrupt, measured, record, session};
+use crate::unmet::Unmet;
+use crate::{input, interrupt, record, session};
 
-/// Parameters, and the flags that hold them.
-const FLAGS: [(&str, &str); 4] = [("spacing", "spacing"), ("growth", "grade"), ("largest", "max-spacing"), ("min_angle_deg", "min-angle")];
-/// A spacing for so many triangles is found in so many steps.
-const ESTIMATES: usize = 4;
 /// How many places are named where a demand was not met.
 const NAMED: usize = 5;
 
-pub fn run(args: &Mesh) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     let begin = Instant::now();
     let targets = Targets::new(args)?;
-    let method = args.mesh_method()?;
-    if args.no_obtuse && args.method != Rule::PushPull {
-        bail!("--no-obtuse needs --method push-pull");
-    }
-    let inputs = [Some(&args.input), args.sizes.as_ref(), args.density.path(), args.fixed.as_ref(), args.lines.as_ref()];
+    let wishes = &args.wishes;
+    let inputs = [Some(&args.input), args.sizes.as_ref(), wishes.density.path(), args.fixed.as_ref(), args.lines.as_ref()];
     input::require_one_stdin(inputs.into_iter().flatten())?;
     if let Some(tolerance) = args.curve_tolerance.filter(|&tolerance| !(tolerance > 0.0 && tolerance.is_finite())) {
         bail!("--curve-tolerance is {tolerance}; it must be positive and finite");
@@ -36,57 +29,25 @@ pub fn run(args: &Mesh) -> anyhow::Result<ExitCode> {
     let pool = session::pool(args.run.threads)?;
     let polygon = read_polygon(&args.input, args.curve_tolerance)?;
     let mut notes: Vec<String> = polygon.repairs().to_vec();
-    // A triangle with sides h has the area sqrt(3) / 4 h^2.
-    let of_triangles = |n: usize| (4.0 * polygon.area() / (3f64.sqrt() * n as f64)).sqrt();
-    let mut spacing = args.spacing.unwrap_or_else(|| of_triangles(args.n_triangles.unwrap_or(1)));
-    let growth = args.grade.unwrap_or(MeshParams::new(spacing).growth);
-    let sizes = Sizes::new(args, &polygon, growth)?;
-    let fixed = args.fixed.as_deref().map(read_positions).transpose()?.unwrap_or_default();
-    let lines = args.lines.as_deref().map(read_lines).transpose()?.unwrap_or_default();
-    let wanted = |spacing: f64| sizes.as_ref().map(|sizes| move |place: [f64; 2]| sizes.at(place, spacing));
-    let told = |e| measured::told(e, &args.input, &FLAGS);
-    let params_of = |spacing: f64| MeshParams {
-        growth,
-        largest: match (args.grade, args.max_spacing) {
-            (None, _) => sizes.as_ref().map(|sizes| sizes.largest(spacing).max(spacing)),
-            (Some(_), Some(largest)) => Some(largest),
-            // As far as it grows.
-            (Some(_), None) => Some(spacing.max(polygon.area().sqrt())),
-        },
-        method,
-        is_non_obtuse: args.no_obtuse,
-        min_angle_deg: args.min_angle,
-        fixed: fixed.clone(),
-        lines: lines.clone(),
-        seed: args.seed,
-        ..MeshParams::new(spacing)
+    let given = Given {
+        fixed: args.fixed.as_deref().map(read_positions).transpose()?.unwrap_or_default(),
+        lines: args.lines.as_deref().map(read_lines).transpose()?.unwrap_or_default(),
+        sizes: args.sizes.as_deref().map(read_rows).transpose()?,
+        density: wishes.density.is_given().then(|| wishes.density.density()).transpose()?,
     };
-    params_of(spacing).validate().map_err(told)?;
-    if let Some(n_triangles) = args.n_triangles {
-        for _ in 0..ESTIMATES {
-            let wanted = wanted(spacing);
-            let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
-            let expected = expected_triangles(&polygon, &params).map_err(told)?;
-            spacing *= (expected / n_triangles as f64).sqrt();
-        }
-    }
-    let wanted = wanted(spacing);
-    let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
 
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
-        mesh(&polygon, &params, &mut context)
+        meshed(&polygon, &args.input, wishes, given, &mut context)
     });
     bar.finish_and_clear();
-    let (mesh, report) = made.map_err(told)?;
+    let Meshed { mesh, quality, report, unmet: missed, parameters } = made?;
     notes.extend(report.notes.iter().cloned());
-    let quality = mesh_quality(&mesh);
-    let missed = unmet(&mesh, args.min_angle, args.no_obtuse);
 
-    let recipe = record::recipe(Some(args.seed));
+    let recipe = record::recipe(Some(wishes.seed));
     write_mesh(&mesh, targets.format, &recipe, &targets.mesh)?;
     if let Some(cells) = &targets.cells {
         write_polygons(&mesh_cells(&mesh), &recipe, cells)?;
@@ -95,7 +56,8 @@ pub fn run(args: &Mesh) -> anyhow::Result<ExitCode> {
     let record = MeshRecord {
         version: record::VERSION,
         command: record::command(),
-        parameters: &params,
+        seed: wishes.seed,
+        parameters: &parameters,
         polygon_area: polygon.area(),
         uncovered_area: (polygon.area() - quality.area).abs(),
         quality,
@@ -115,9 +77,9 @@ pub fn run(args: &Mesh) -> anyhow::Result<ExitCode> {
         Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
     }
     Ok(match () {
-        () if cancel.is_cancelled() => ExitCode::from(interrupt::CODE),
-        () if !missed.is_empty() => ExitCode::from(session::NOT_REACHED),
-        () => ExitCode::SUCCESS,
+        () if cancel.is_cancelled() => interrupt::CODE,
+        () if !missed.is_empty() => session::NOT_REACHED,
+        () => session::DONE,
     })
 }
 
@@ -163,7 +125,9 @@ impl Targets {
 struct MeshRecord<'a> {
     version: &'static str,
     command: String,
-    parameters: &'a MeshParams<'a>,
+    #[serde(skip)]
+    seed: u64,
+    parameters: &'a Value,
     polygon_area: f64,
     /// By how much the triangles' areas differ from the polygon's.
     uncovered_area: f64,
@@ -182,7 +146,7 @@ fn summarize(name: &str, record: &MeshRecord) {
     let MeshQuality { radius_edge, beta, triangle_quality, min_edge, max_edge, n_border_edges, .. } = record.quality;
     say(format_args!(
         "{name}: {n_triangles} triangles, {n_vertices} vertices, {n_border_edges} edges on the border, seed {}, {:.2} s",
-        record.parameters.seed, record.seconds
+        record.seed, record.seconds
     ));
     say(format_args!(
         "angles {min_angle_deg:.2} to {max_angle_deg:.2} degrees (mean of the smallest {mean_min_angle_deg:.2}), {obtuse_triangles} obtuse triangles"

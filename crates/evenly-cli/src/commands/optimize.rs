@@ -1,7 +1,5 @@
 //! `evenly optimize`: better points from points.
 
-use std::process::ExitCode;
-
 use clap::ArgMatches;
 use evenly::warp;
 
@@ -10,7 +8,7 @@ use crate::input;
 use crate::method::refuse_others_flags;
 use crate::session::Session;
 
-pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<u8> {
     refuse_others_flags(&[args.method], flags)?;
     let space = args.space.space()?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;

@@ -1,7 +1,5 @@
 //! `evenly reproduce`: a paper's tables and figures, computed anew beside the printed numbers.
 
-use std::process::ExitCode;
-
 use anyhow::Context as _;
 use evenly::CancelToken;
 use evenly_io::{Scraps, Target, make_folder};
@@ -12,7 +10,7 @@ use crate::reproduce::{Done, Lab, STUDIES, html};
 use crate::talk::say;
 use crate::{interrupt, record, session};
 
-pub fn run(args: &Reproduce) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Reproduce) -> anyhow::Result<u8> {
     let study = STUDIES.iter().find(|study| study.name == args.paper).context("no such paper")?;
     let name = format!("{}{}", study.name, if args.quick { "-quick" } else { "" });
     let scraps = Scraps::new(&args.output.join(format!("{name}.parts")));
@@ -36,7 +34,7 @@ pub fn run(args: &Reproduce) -> anyhow::Result<ExitCode> {
     lab.bar.finish_and_clear();
     if done.is_empty() {
         say("no part is done, so there is nothing to show");
-        return Ok(ExitCode::from(interrupt::CODE));
+        return Ok(interrupt::CODE);
     }
     page.write(html(study, &done, args.quick).as_bytes())?;
     let parts: Vec<&Done> = done.iter().collect();
@@ -48,14 +46,14 @@ pub fn run(args: &Reproduce) -> anyhow::Result<ExitCode> {
             done.len(),
             study.parts.len()
         ));
-        return Ok(ExitCode::from(interrupt::CODE));
+        return Ok(interrupt::CODE);
     }
     scraps.clear()?;
     if !args.run.quiet {
         let seconds: f64 = done.iter().map(|done| done.part.seconds).sum();
         say(format_args!("{} and {}: {} parts, {seconds:.0} s", page.name(), data.name(), done.len()));
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(session::DONE)
 }
 
 /// The numbers alone: pictures are in the page.

@@ -1,18 +1,18 @@
 //! `evenly completions` and `evenly man`: what a shell wants to know.
 
 use std::io::Write as _;
-use std::process::ExitCode;
 
 use crate::args::command;
+use crate::session::DONE;
 
-pub fn completions(shell: clap_complete::Shell) -> anyhow::Result<ExitCode> {
+pub fn completions(shell: clap_complete::Shell) -> anyhow::Result<u8> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut command(), "evenly", &mut script);
     print(&script)
 }
 
 /// The page of the command, then those of its verbs.
-pub fn man() -> anyhow::Result<ExitCode> {
+pub fn man() -> anyhow::Result<u8> {
     let mut command = command();
     command.build();
     let mut page = Vec::new();
@@ -23,9 +23,9 @@ pub fn man() -> anyhow::Result<ExitCode> {
     print(&page)
 }
 
-fn print(bytes: &[u8]) -> anyhow::Result<ExitCode> {
+fn print(bytes: &[u8]) -> anyhow::Result<u8> {
     match std::io::stdout().write_all(bytes) {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(e.into()),
-        _ => Ok(ExitCode::SUCCESS),
+        _ => Ok(DONE),
     }
 }

@@ -1,16 +1,15 @@
 //! `evenly stipple`: a picture as dots of one pen, or of four.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Density, PointSet, Rectangle, RunContext, Space, eliminate, measure, tessellate, tour};
+use evenly::{CancelToken, Density, PointSet, Rectangle, RunContext, Space, measure, tessellate};
 use evenly_io::{Drawing, Format, Layer, Marks, Photograph, Target, write_points};
 use serde::Serialize;
 
-use crate::stipple::{Ink, Paper, ToneReport, Tones, Wanted, dot_areas, edges_of, optimizer, shares, spread, widest_dot};
-use crate::stipple_args::{DotKind, DrawOrder, Sizes, Stipple};
+use crate::stipple::{Dots, DotsParams, Ink, Paper, ToneReport, Tones, Wanted, dots, edges_of, optimizer, shares};
+use crate::stipple_args::{DotKind, Stipple};
 use crate::talk::say;
 use crate::{interrupt, record, session};
 
@@ -19,7 +18,7 @@ const FINEST_MM: f64 = 0.001;
 /// The width of edges, where none is given.
 const LINE_MM: f64 = 0.3;
 
-pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     let begin = Instant::now();
     let targets = Targets::new(args)?;
     if let Some(pen) = args.pen.filter(|&pen| pen < FINEST_MM) {
@@ -28,7 +27,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
     if args.edges.is_some() && args.n_points < 3 {
         bail!("--n-points is {}; edges take 3 dots or more", args.n_points);
     }
-    let tone = args.tone()?;
+    let tone = args.tone.tone()?;
     // For bad usage, before a long read.
     optimizer(args.method, args.iterations, args.seed)?;
     let pool = session::pool(args.run.threads)?;
@@ -98,7 +97,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<ExitCode> {
         };
         report.write((serde_json::to_string_pretty(&record)? + "\n").as_bytes())?;
     }
-    Ok(if cancel.is_cancelled() { ExitCode::from(interrupt::CODE) } else { ExitCode::SUCCESS })
+    Ok(if cancel.is_cancelled() { interrupt::CODE } else { session::DONE })
 }
 
 /// Where everything goes, checked before the work begins.
@@ -180,26 +179,16 @@ impl<'a> Drawn<'a> {
         seed: u64,
         cancel: &CancelToken,
     ) -> anyhow::Result<Self> {
-        let optimizer = optimizer(args.method, args.iterations, seed)?;
+        let params = DotsParams { method: args.method, iterations: args.iterations, sizes: args.sizes, order: args.order };
         let bar = session::bar(args.run.quiet, 1000, "{msg} [{bar:30}] {eta} left");
         let mut run = RunContext::default().on_progress(|progress| session::show(&bar, progress)).with_cancel(cancel.clone());
-        let points = spread(space, &tones.density, n_points, args.method, optimizer.as_deref(), seed, &mut run)?;
+        let made = dots(&params, space, ink, tones, n_points, seed, (&mut run, &|| cancel.is_cancelled()))?;
         bar.finish_and_clear();
-        let points = match args.order {
-            // An order that takes long is left out where nobody wants to wait; a pen cannot do without its tour.
-            DrawOrder::Progressive if cancel.is_cancelled() => ordered(&points, &tour(&points))?,
-            DrawOrder::Tour => ordered(&points, &tour(&points))?,
-            DrawOrder::Progressive => eliminate(&points, points.n_points())?,
-            DrawOrder::Input => points,
-        };
-        let areas = match args.sizes {
-            Sizes::Constant => vec![1.0; points.n_points()],
-            Sizes::Tone => dot_areas(&points, &tones.darkness, ink.mean_darkness),
-        };
+        let Dots { points, areas, widest_px } = made;
         let has_report = args.report.is_some();
         Ok(Self {
             ink,
-            widest_px: widest_dot(&points, ink.mean_darkness, &areas),
+            widest_px,
             density_error: if has_report { measure(&points).ok().and_then(|measures| measures.density_error) } else { None },
             wanted: if has_report { Some(Wanted::new(&points, &tones.darkness, ink.mean_darkness)?) } else { None },
             // The density's pixels are not needed any more.
@@ -239,11 +228,6 @@ impl<'a> Drawn<'a> {
 /// Of a dot, in steps of a sixteenth of the pen, as dots of one size are drawn together.
 fn diameter(pen: f64, area: f64) -> f64 {
     pen * (16.0 * area.sqrt()).round() / 16.0
-}
-
-fn ordered(points: &PointSet, order: &[usize]) -> Result<PointSet, evenly::Error> {
-    let positions = order.iter().map(|&index| points.positions()[index]).collect();
-    Ok(PointSet::new(points.space(), positions)?.with_density(points.density()))
 }
 
 /// The dots of all pens, one after the other.

@@ -1,14 +1,12 @@
 //! `evenly zoneplate`: how points sample waves.
 
-use std::process::ExitCode;
-
 use evenly::{ZonePlateParams, zone_plate};
 use evenly_io::{Target, write_image};
 
 use crate::measuring_args::Zoneplate;
 use crate::{input, measured, record, session};
 
-pub fn run(args: &Zoneplate) -> anyhow::Result<ExitCode> {
+pub fn run(args: &Zoneplate) -> anyhow::Result<u8> {
     let output = args.output.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose()?;
     let points = input::read_and_tell(&args.input, &args.space.space()?)?;
     let params = ZonePlateParams { pixels: args.pixels, max_frequency: args.frequency, filter: args.filter.into() };

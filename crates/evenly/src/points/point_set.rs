@@ -95,6 +95,11 @@ impl PointSet {
         &self.positions
     }
 
+    /// The points alone.
+    pub fn into_positions(self) -> Vec<[f64; 2]> {
+        self.positions
+    }
+
     /// How many points there are.
     pub fn n_points(&self) -> usize {
         self.positions.len()

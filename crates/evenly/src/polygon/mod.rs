@@ -242,7 +242,7 @@ fn segments(ring: &[u32]) -> impl Iterator<Item = [u32; 2]> {
     (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]])
 }
 
-/// The rings of points around a triangulation's border, with the inside on their left.
+/// The rings of points around a triangulation's border, with the inside on their left; each begins with its first point, and they come in the order of these: so what is clean stays as it is.
 fn loops(planar: &Planar) -> Vec<Vec<u32>> {
     let Planar { half_edges, source, .. } = planar;
     let mut is_seen = vec![false; half_edges.origin.len()];
@@ -254,10 +254,13 @@ fn loops(planar: &Planar) -> Vec<Vec<u32>> {
             ring.push(source[half_edges.origin[h as usize] as usize]);
             h = following(half_edges, h);
         }
-        if !ring.is_empty() {
+        let first = (0..ring.len()).min_by_key(|&k| [ring[k], ring[(k + 1) % ring.len()]]);
+        if let Some(first) = first {
+            ring.rotate_left(first);
             loops.push(ring);
         }
     }
+    loops.sort();
     loops
 }
 

@@ -1,0 +1,109 @@
+//! The command line of evenly as a library, so that other faces give the same answers to the same wishes.
+
+mod args;
+mod commands;
+mod comparison;
+mod improve;
+mod input;
+mod interrupt;
+mod measured;
+mod measuring_args;
+mod mesh_args;
+pub mod meshed;
+mod method;
+mod method_args;
+mod optimizer;
+mod page;
+mod parse;
+mod record;
+mod reproduce;
+mod session;
+mod shared_args;
+mod sizes;
+mod stipple;
+mod stipple_args;
+pub mod stippled;
+mod table;
+mod talk;
+mod unmet;
+pub mod wishes;
+
+use std::ffi::OsString;
+
+use clap::error::ErrorKind;
+use clap::{FromArgMatches as _, ValueEnum as _};
+use evenly::Density;
+use evenly_io::Draw;
+
+use args::{Cli, Command};
+use shared_args::DrawArg;
+use talk::say;
+
+/// Bad usage or input.
+const BAD_INPUT: u8 = 2;
+
+/// Runs a command line, whose first word is the program, and returns its exit code.
+pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<OsString> = words.into_iter().collect();
+    record::keep_command(&words);
+    let parsed = args::command().try_get_matches_from(words).and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)));
+    let (cli, matches) = match parsed {
+        Ok(parsed) => parsed,
+        Err(error) => return usage(&error),
+    };
+    let flags = matches.subcommand().map(|(_, flags)| flags).unwrap_or(&matches);
+    let done = match &cli.command {
+        Command::Generate(args) => commands::generate::run(args, flags),
+        Command::Optimize(args) => commands::optimize::run(args, flags),
+        Command::Analyze(args) => commands::analyze::run(args),
+        Command::Stipple(args) => commands::stipple::run(args),
+        Command::Mesh(args) => commands::mesh::run(args),
+        Command::Compare(args) => commands::compare::run(args, flags),
+        Command::Zoneplate(args) => commands::zoneplate::run(args),
+        Command::Bilateral(args) => commands::bilateral::run(args),
+        Command::Reproduce(args) => commands::reproduce::run(args),
+        Command::Completions { shell } => commands::shell::completions(*shell),
+        Command::Man => commands::shell::man(),
+    };
+    done.unwrap_or_else(|error| {
+        say(format_args!("error: {error:#}"));
+        BAD_INPUT
+    })
+}
+
+/// The density that `--density` would have of these words.
+///
+/// # Errors
+/// As it.
+pub fn density(words: &str) -> anyhow::Result<Density> {
+    shared_args::density_of(words)
+}
+
+/// What `--draw` would draw by this name.
+///
+/// # Errors
+/// There is none of that name.
+pub fn draw(name: &str) -> anyhow::Result<Draw> {
+    DrawArg::from_str(name, false).map(Into::into).map_err(|_| anyhow::anyhow!("nothing to draw has the name {name:?}"))
+}
+
+/// Help goes out as it is; an error becomes one line.
+fn usage(error: &clap::Error) -> u8 {
+    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        return if error.print().is_ok() { session::DONE } else { BAD_INPUT };
+    }
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        say(error.to_string().trim_end());
+        return BAD_INPUT;
+    }
+    say(format_args!("error: {}; see --help", plain(error)));
+    BAD_INPUT
+}
+
+/// What is wrong, in a line.
+fn plain(error: &clap::Error) -> anyhow::Error {
+    let text = error.to_string();
+    let what: Vec<&str> = text.lines().take_while(|line| !line.trim().is_empty()).map(str::trim).collect();
+    let what = what.join(" ");
+    anyhow::Error::msg(what.strip_prefix("error: ").unwrap_or(&what).to_owned())
+}

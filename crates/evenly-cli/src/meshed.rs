@@ -1,0 +1,109 @@
+//! [`meshed`]: a mesh as it is wished for, whoever wishes it.
+
+use std::path::Path;
+
+use anyhow::bail;
+use clap::{Args as _, FromArgMatches as _};
+use evenly::{Density, Mesh, MeshParams, MeshQuality, Polygon, Report, RunContext, expected_triangles, mesh, mesh_quality};
+use serde_json::Value;
+
+use crate::measured::told;
+use crate::mesh_args::{MeshWishes, Rule};
+use crate::sizes::Sizes;
+use crate::unmet::{Unmet, unmet};
+
+/// Parameters, and the flags that hold them.
+const FLAGS: [(&str, &str); 4] = [("spacing", "spacing"), ("growth", "grade"), ("largest", "max-spacing"), ("min_angle_deg", "min-angle")];
+/// A spacing for so many triangles is found in so many steps.
+const ESTIMATES: usize = 4;
+
+/// What a mesh must keep or follow.
+#[derive(Default)]
+pub struct Given {
+    /// Points that become vertices.
+    pub fixed: Vec<[f64; 2]>,
+    /// Lines that become edges.
+    pub lines: Vec<Vec<[f64; 2]>>,
+    /// Places and the wanted lengths of edges there.
+    pub sizes: Option<Vec<[f64; 3]>>,
+    /// How many vertices are wanted where, in proportion.
+    pub density: Option<Density>,
+}
+
+/// A mesh, and what there is to say of it.
+pub struct Meshed {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// What it is worth.
+    pub quality: MeshQuality,
+    /// How it came about.
+    pub report: Report,
+    /// Where demands were not met.
+    pub unmet: Vec<Unmet>,
+    /// What was asked for.
+    pub parameters: Value,
+}
+
+/// Makes a mesh; of wishes in words see [`wishes`].
+///
+/// # Errors
+/// As [`mesh`], with the names of flags; `name` is the polygon's.
+pub fn meshed(polygon: &Polygon, name: &Path, wishes: &MeshWishes, given: Given, run: &mut RunContext) -> anyhow::Result<Meshed> {
+    let method = wishes.mesh_method()?;
+    if wishes.no_obtuse && wishes.method != Rule::PushPull {
+        bail!("--no-obtuse needs --method push-pull");
+    }
+    // A triangle with sides h has the area sqrt(3) / 4 h^2.
+    let of_triangles = |n: usize| (4.0 * polygon.area() / (3f64.sqrt() * n as f64)).sqrt();
+    let mut spacing = wishes.spacing.unwrap_or_else(|| of_triangles(wishes.n_triangles.unwrap_or(1)));
+    let growth = wishes.grade.unwrap_or(MeshParams::new(spacing).growth);
+    let Given { fixed, lines, sizes, density } = given;
+    let sizes = Sizes::new(sizes, density, polygon, growth)?;
+    let wanted = |spacing: f64| sizes.as_ref().map(|sizes| move |place: [f64; 2]| sizes.at(place, spacing));
+    let told = |e| told(e, name, &FLAGS);
+    let params_of = |spacing: f64| MeshParams {
+        growth,
+        largest: match (wishes.grade, wishes.max_spacing) {
+            (None, _) => sizes.as_ref().map(|sizes| sizes.largest(spacing).max(spacing)),
+            (Some(_), Some(largest)) => Some(largest),
+            // As far as it grows.
+            (Some(_), None) => Some(spacing.max(polygon.area().sqrt())),
+        },
+        method,
+        is_non_obtuse: wishes.no_obtuse,
+        min_angle_deg: wishes.min_angle,
+        fixed: fixed.clone(),
+        lines: lines.clone(),
+        seed: wishes.seed,
+        ..MeshParams::new(spacing)
+    };
+    params_of(spacing).validate().map_err(told)?;
+    if let Some(n_triangles) = wishes.n_triangles {
+        for _ in 0..ESTIMATES {
+            let wanted = wanted(spacing);
+            let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
+            let expected = expected_triangles(polygon, &params).map_err(told)?;
+            spacing *= (expected / n_triangles as f64).sqrt();
+        }
+    }
+    let wanted = wanted(spacing);
+    let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
+    let (mesh, report) = mesh(polygon, &params, run).map_err(told)?;
+    Ok(Meshed {
+        quality: mesh_quality(&mesh),
+        unmet: unmet(&mesh, wishes.min_angle, wishes.no_obtuse),
+        parameters: serde_json::json!(params),
+        mesh,
+        report,
+    })
+}
+
+/// Wishes in the command line's words, as `--spacing=0.1`.
+///
+/// # Errors
+/// What the command line says of them.
+pub fn wishes(words: &[String]) -> anyhow::Result<MeshWishes> {
+    let command = MeshWishes::augment_args(clap::Command::new("mesh").no_binary_name(true).disable_help_flag(true));
+    let read = || MeshWishes::from_arg_matches(&command.try_get_matches_from(words)?);
+    read().map_err(|error| crate::plain(&error))
+}

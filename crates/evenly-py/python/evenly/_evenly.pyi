@@ -1,0 +1,100 @@
+from collections.abc import Callable, Sequence
+from typing import TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Rows: TypeAlias = NDArray[np.float64]
+_Box: TypeAlias = tuple[str, tuple[float, float], tuple[float, float]]
+_Parts: TypeAlias = Sequence[Sequence[Sequence[tuple[float, float]]]]
+_Rings: TypeAlias = Sequence[Sequence[tuple[float, float]]]
+_Space: TypeAlias = _Box | _Rings
+_Density: TypeAlias = NDArray[np.float32] | str | None
+_Callback: TypeAlias = Callable[[int, float | None, float | None, float], bool | None] | None
+_Clean: TypeAlias = tuple[
+    list[list[tuple[float, float]]], float, tuple[tuple[float, float], tuple[float, float]], list[str]
+]
+_Layer: TypeAlias = tuple[str, str, _Rows, NDArray[np.float64], float]
+
+__all__ = [
+    "Pending",
+    "Stopped",
+    "__version__",
+    "command",
+    "figure",
+    "generate",
+    "measure",
+    "mesh",
+    "mesh_figure",
+    "optimize",
+    "polygon",
+    "power_spectrum",
+    "radial_spectrum",
+    "read_polygon",
+    "rendered",
+    "stipple",
+    "triangles",
+    "write_mesh",
+]
+__version__: str
+
+class Stopped(KeyboardInterrupt): ...
+
+@final
+class Pending:
+    def result(self) -> object: ...
+
+def generate(
+    n: int | None,
+    fixed: _Rows,
+    space: _Space,
+    density: _Density,
+    words: list[str],
+    threads: int | None,
+    callback: _Callback,
+) -> tuple[_Rows, str]: ...
+def optimize(
+    points: _Rows,
+    fixed: _Rows,
+    space: _Space,
+    density: _Density,
+    words: list[str],
+    threads: int | None,
+    callback: _Callback,
+) -> tuple[_Rows, str]: ...
+def measure(points: _Rows, space: _Space, density: _Density, threads: int | None) -> str: ...
+def power_spectrum(
+    sets: list[_Rows], space: _Space, max_frequency: float, threads: int | None
+) -> tuple[_Rows, tuple[int, int], tuple[float, float], _Rows, _Rows, _Rows]: ...
+def radial_spectrum(
+    sets: list[_Rows], space: _Space, threads: int | None
+) -> tuple[_Rows, _Rows, _Rows, _Rows, float, float]: ...
+def triangles(points: _Rows, space: _Space, threads: int | None) -> _Rows: ...
+def figure(points: _Rows, space: _Space, density: _Density, draw: list[str]) -> str: ...
+def rendered(svg: str) -> bytes: ...
+def polygon(parts: _Parts) -> _Clean: ...
+def read_polygon(path: str) -> _Clean: ...
+def mesh(
+    rings: _Rings,
+    words: list[str],
+    fixed: _Rows,
+    lines: list[_Rows],
+    sizes: _Rows | None,
+    wanted: _Density,
+    threads: int | None,
+    callback: _Callback,
+) -> tuple[_Rows, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str]: ...
+def write_mesh(
+    path: str, vertices: _Rows, triangles: NDArray[np.int64], edges: NDArray[np.int64], tags: list[int]
+) -> None: ...
+def mesh_figure(
+    vertices: _Rows, triangles: NDArray[np.int64], edges: NDArray[np.int64], tags: list[int]
+) -> str: ...
+def stipple(
+    picture: NDArray[np.float32] | str,
+    n: int,
+    words: list[str],
+    threads: int | None,
+    callback: _Callback,
+) -> tuple[tuple[int, int], list[_Layer]]: ...
+def command(words: list[str]) -> int: ...

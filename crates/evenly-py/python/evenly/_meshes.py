@@ -1,0 +1,200 @@
+"""`mesh`, and the mesh that it returns."""
+
+import json
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenly import _evenly
+from evenly._arrays import Floats, frozen, none, rows
+from evenly._densities import Density, density_of
+from evenly._jobs import Callback, run, told, words
+from evenly._seeds import Seed, number
+from evenly._spaces import Polygon, native
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+_MANY = 20_000
+
+
+@dataclass(frozen=True)
+class MeshQuality:
+    """What a mesh is worth; angles in degrees, lengths and areas in input units."""
+
+    n_vertices: int
+    n_triangles: int
+    n_border_edges: int
+    min_angle_deg: float
+    max_angle_deg: float
+    mean_min_angle_deg: float
+    obtuse_triangles: int
+    radius_edge: float
+    beta: float
+    triangle_quality: float
+    min_edge: float
+    max_edge: float
+    area: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Mesh:
+    """Triangles that cover a polygon."""
+
+    vertices: Floats
+    """Of shape (n, 2)."""
+    triangles: NDArray[np.int64]
+    """Of shape (m, 3): the vertices of each, counter-clockwise."""
+    edges: NDArray[np.int64]
+    """Of shape (k, 2): the edges on the border, with the inside on their left, and on lines."""
+    tags: NDArray[np.int64]
+    """Of each edge: the segment of the border, counted through all of the polygon's rings; or -1, -2, ... for the first line, the second, ..."""
+    quality: MeshQuality
+    """What it is worth."""
+    seed: int
+    """The same seed makes the same mesh."""
+    outcome: str
+    """'converged' where all triangles are as good as they were to be; see `Points.outcome`."""
+    notes: tuple[str, ...] = ()
+    """What is good to know."""
+    unmet: tuple[str, ...] = ()
+    """Where a demand was not met, and why."""
+
+    def __repr__(self) -> str:
+        q = self.quality
+        angles = f"angles {q.min_angle_deg:.1f} to {q.max_angle_deg:.1f} degrees"
+        return f"<mesh of {q.n_triangles} triangles and {q.n_vertices} vertices, {angles}>"
+
+    def save(self, path: "str | os.PathLike[str]") -> None:
+        """Write the mesh as .msh (Gmsh 4.1), .vtu, .obj, .ply, .off, .stl, .geojson, .npz, .svg, .png or .pdf, as the path says."""
+        _evenly.write_mesh(os.fspath(path), self.vertices, self.triangles, self.edges, self.tags.tolist())
+
+    def svg(self) -> str:
+        """Draw the mesh: obtuse triangles light red, thin ones red."""
+        return _evenly.mesh_figure(self.vertices, self.triangles, self.edges, self.tags.tolist())
+
+    def _repr_svg_(self) -> str | None:
+        return self.svg() if len(self.triangles) <= _MANY else None
+
+    def _repr_png_(self) -> bytes | None:
+        return _evenly.rendered(self.svg()) if len(self.triangles) > _MANY else None
+
+
+def mesh(
+    polygon: object,
+    *,
+    spacing: float | None = None,
+    n_triangles: int | None = None,
+    seed: Seed = 0,
+    method: Literal["push-pull", "opt-beta", "lloyd", "distmesh"] = "push-pull",
+    iterations: int | None = None,
+    grade: float | None = None,
+    max_spacing: float | None = None,
+    sizes: "ArrayLike | object | None" = None,
+    density: Density = None,
+    min_angle: float | None = None,
+    no_obtuse: bool = False,
+    fixed: "ArrayLike | object | None" = None,
+    lines: "Sequence[ArrayLike | object]" = (),
+    threads: int | None = None,
+    callback: Callback | None = None,
+) -> Mesh:
+    """Mesh a polygon with triangles that conform to its border (Ebeida et al. 2014, section 7).
+
+    Parameters
+    ----------
+    polygon : Polygon, shapely polygon, file, ring or rings
+        See `Polygon`.
+    spacing : float, optional
+        The wanted length of edges, in input units; shorter where the border is detailed or the domain narrow. This or `n_triangles`.
+    n_triangles : int, optional
+        About how many triangles, instead.
+    seed : int, SeedSequence, Generator or None
+        As in `generate`.
+    method : str
+        By which rule points move.
+    iterations : int, optional
+        Passes of methods other than 'push-pull'.
+    grade : float, optional
+        Let edges grow away from the border, by so much a length.
+    max_spacing : float, optional
+        The longest edges wanted, where they grow.
+    sizes : array_like of shape (k, 3), optional
+        Wanted lengths of edges at points, as x, y and length.
+    density : optional
+        How many vertices are wanted where, in the polygon's frame; see `generate`.
+    min_angle : float, optional
+        No angle shall be smaller, in degrees, but at sharper corners of the polygon.
+    no_obtuse : bool
+        No triangle shall be obtuse.
+    fixed : array_like of shape (k, 2), optional
+        Points that become vertices.
+    lines : sequence of array_like of shape (k, 2)
+        Lines inside that become edges.
+    threads, callback
+        As in `generate`.
+
+    Returns
+    -------
+    Mesh
+        Vertices, triangles and tagged edges. That a demand was not met is no error: see ``unmet``.
+
+    Raises
+    ------
+    ValueError
+        For what cannot be; the message has the place.
+    Interrupted
+        Where Ctrl-C ends the run; ``partial`` has the mesh reached.
+
+    Examples
+    --------
+    >>> import evenly
+    >>> l_shape = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    >>> mesh = evenly.mesh(l_shape, spacing=0.1, no_obtuse=True)
+    >>> mesh.quality.obtuse_triangles, mesh.quality.min_angle_deg > 40
+    (0, True)
+    """
+    shape = polygon if isinstance(polygon, Polygon) else Polygon(polygon)
+    chance = number(seed)
+    options = words(
+        {
+            "spacing": None if spacing is None else float(spacing),
+            "n_triangles": n_triangles,
+            "seed": chance,
+            "method": method,
+            "iterations": iterations,
+            "grade": grade,
+            "max_spacing": max_spacing,
+            "min_angle": min_angle,
+            "no_obtuse": no_obtuse,
+        }
+    )
+    held = none() if fixed is None else rows(fixed, "fixed")
+    ways = [rows(line, f"line {k}") for k, line in enumerate(lines)]
+    lengths = None if sizes is None else rows(sizes, "sizes", 3)
+    wanted = density_of(density, shape)
+
+    def build(answer: tuple[Floats, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str]) -> Mesh:
+        vertices, triangles, edges, tags, text = answer
+        said: dict[str, Any] = json.loads(text)
+        quality: dict[str, Any] = {name: math.nan if value is None else value for name, value in said["quality"].items()}
+        return Mesh(
+            vertices=frozen(vertices),
+            triangles=frozen(triangles),
+            edges=frozen(edges),
+            tags=frozen(tags),
+            quality=MeshQuality(**{each.name: quality[each.name] for each in fields(MeshQuality)}),
+            seed=chance,
+            outcome=said["run"]["outcome"],
+            notes=tuple(said["notes"]),
+            unmet=tuple(said["unmet"]),
+        )
+
+    return run(
+        lambda: _evenly.mesh(native(shape), options, held, ways, lengths, wanted, threads, told(callback)), build
+    )

@@ -1,0 +1,332 @@
+"""`generate` and `optimize`, and the points that they return."""
+
+import json
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenly import _evenly
+from evenly._arrays import Floats, frozen, none, rows
+from evenly._densities import Density, density_of
+from evenly._jobs import Callback, run, told, words
+from evenly._measures import Measures, measure
+from evenly._seeds import Seed, number
+from evenly._spaces import Pair, Space, native, space_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+Optimizer: TypeAlias = Literal[
+    "procrustes", "push-pull", "well-spaced", "opt-beta", "lloyd", "cvt", "farthest-point", "distmesh", "capacity"
+]
+"""Methods that make points better."""
+Start: TypeAlias = Literal["poisson-disk", "dart", "eliminate", "white", "jittered", "hexagonal"]
+"""Methods that make points of nothing."""
+Target: TypeAlias = "float | Literal['off'] | None"
+"""A number, 'off', or None for what the method has."""
+
+_MANY = 5000
+_SPECTRAL = 16
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Points:
+    """A set of points, as `generate` and `optimize` return it; numpy takes it as an array of shape (n, 2)."""
+
+    positions: Floats
+    """The points, which cannot be written to."""
+    space: Space
+    """Their domain."""
+    method: str
+    """How they were made."""
+    seed: int
+    """The same seed makes the same points."""
+    outcome: str
+    """How the run ended: 'converged', 'iterations_done', 'iteration_limit', 'lost_to_rounding', 'cancelled', 'nothing_to_do', or 'made' where there was none."""
+    iterations: int
+    """Iterations or passes that were made."""
+    notes: tuple[str, ...] = ()
+    """What is good to know."""
+    unmet: tuple[str, ...] = ()
+    """For each target that was missed, in a sentence."""
+    run: dict[str, Any] = field(default_factory=dict)
+    """All that the run has counted."""
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self.positions, dtype=dtype, copy=copy)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.positions[index]
+
+    def __repr__(self) -> str:
+        missed = f", {len(self.unmet)} targets missed" if self.unmet else ""
+        kind = type(self.space).__name__.lower()
+        return f"<{len(self)} points by {self.method} in a {kind}, seed {self.seed}, {self.outcome.replace('_', ' ')}{missed}>"
+
+    def measure(self) -> Measures:
+        """Measure the points; see `evenly.measure`."""
+        return measure(self)
+
+    def svg(self, *draw: str) -> str:
+        """Draw the points, or what else the command line's ``--draw`` knows, as SVG."""
+        return _evenly.figure(rows(self.positions), native(self.space), None, list(draw) or ["points"])
+
+    def _repr_svg_(self) -> str | None:
+        return self.svg(*self._shown()) if len(self) <= _MANY else None
+
+    def _repr_png_(self) -> bytes | None:
+        return _evenly.rendered(self.svg(*self._shown())) if len(self) > _MANY else None
+
+    def _shown(self) -> list[str]:
+        from evenly._spaces import Polygon
+
+        has_spectrum = len(self) >= _SPECTRAL and not isinstance(self.space, Polygon)
+        return ["points", "spectrum"] if has_spectrum else ["points"]
+
+
+def generate(
+    n: int | None = None,
+    *,
+    method: Optimizer | Start = "procrustes",
+    start: Start | None = None,
+    seed: Seed = 0,
+    space: object = None,
+    size: Pair | None = None,
+    origin: Pair | None = None,
+    density: Density = None,
+    fixed: "ArrayLike | object | None" = None,
+    warp: bool = True,
+    iterations: int | None = None,
+    preset: Literal["fast", "balanced", "tough", "paper1", "paper2", "paper3"] | None = None,
+    min_distance: Target = None,
+    coverage_radius: Target = None,
+    capacity_tolerance: Target = None,
+    beta: float | None = None,
+    mode: Literal["paper", "fast"] | None = None,
+    side: float | None = None,
+    tolerance: float | None = None,
+    relaxation: float | None = None,
+    local: bool = False,
+    damping: float | None = None,
+    schedule: Literal["in-turn", "summed"] | None = None,
+    spacing: float | None = None,
+    coverage: float | None = None,
+    tries: int | None = None,
+    threads: int | None = None,
+    callback: Callback | None = None,
+) -> Points:
+    """Make points, evenly but not regularly: blue noise.
+
+    Parameters
+    ----------
+    n : int, optional
+        How many points, exactly; of 'poisson-disk' about. May only be missing with `spacing`.
+    method : str
+        How they are made, by an optimiser or as one of its starts: 'procrustes' (Papazov and Hege 2017), 'push-pull' (Ahmed et al. 2016),
+        'well-spaced' and 'opt-beta' (Ebeida et al. 2014), 'lloyd', 'cvt' (Liu et al. 2009), 'farthest-point' (Schlömer et al. 2011), 'distmesh'
+        (Persson and Strang 2004), 'capacity' (Balzer et al. 2009); 'poisson-disk', 'dart', 'eliminate' (Yuksel 2015), 'white', 'jittered', 'hexagonal'.
+    start : str, optional
+        What an optimiser starts from; by default white noise, of 'opt-beta' 'poisson-disk', in a polygon 'jittered'.
+    seed : int, SeedSequence, Generator or None
+        The same seed makes the same points, on any number of threads, here and on the command line. None for other points each time.
+    space : {'torus', 'rect'}, Torus, Rectangle, Polygon, shapely polygon or file, optional
+        The domain; a torus, which is periodic, by default.
+    size, origin : pair of float, optional
+        Width and height of a torus or rectangle, and its lower left corner; (1, 1) and (0, 0) by default.
+    density : array_like of shape (height, width), callable or path, optional
+        How many points are wanted where, in proportion: pixels that span the domain, rows from the top; a function of arrays x and y; or a picture,
+        ``photo.png`` or ``photo.png:invert,gamma=2``.
+    fixed : array_like of shape (k, 2), optional
+        Points that stay where they are; they are among the n, and come first.
+    warp : bool
+        Whether long density waves are taken out first, where that suits the method.
+    iterations : int, optional
+        Stop after so many iterations or passes in any case.
+    preset : str, optional
+        Of 'push-pull': its targets.
+    min_distance, coverage_radius, capacity_tolerance : float or 'off', optional
+        Of 'push-pull', one by one: in hexagonal spacings, and as a part of the mean.
+    beta : float, optional
+        Of 'well-spaced' and 'opt-beta': the coverage radius over the smallest distance. Below 0.707 no triangle is obtuse.
+    mode, side, tolerance, relaxation, local, damping, schedule, spacing, coverage, tries : optional
+        Of some methods, as on the command line: see ``evenly generate --help``.
+    threads : int, optional
+        All cores by default; the result does not depend on it.
+    callback : callable, optional
+        Called with the iteration and a `Progress` after each; False stops the run.
+
+    Returns
+    -------
+    Points
+        The points, and how the run ended. That targets were missed is no error: see ``unmet``.
+
+    Raises
+    ------
+    ValueError
+        For what cannot be.
+    Interrupted
+        Where Ctrl-C ends the run; ``partial`` has the points reached.
+
+    Examples
+    --------
+    >>> import evenly, numpy
+    >>> points = evenly.generate(500, method="push-pull", seed=7)
+    >>> numpy.asarray(points).shape
+    (500, 2)
+    >>> bool(evenly.generate(300, method="lloyd", density=lambda x, y: x).positions[:, 0].mean() > 0.6)
+    True
+    """
+    where = space_of(space, size, origin)
+    chance = number(seed)
+    options = words(
+        {
+            "method": method,
+            "start": start,
+            "seed": chance,
+            "no_warp": not warp,
+            "iterations": iterations,
+            "preset": preset,
+            "min_distance": min_distance,
+            "coverage_radius": coverage_radius,
+            "capacity_tolerance": capacity_tolerance,
+            "beta": beta,
+            "mode": mode,
+            "side": side,
+            "tolerance": tolerance,
+            "relaxation": relaxation,
+            "local": local,
+            "damping": damping,
+            "schedule": schedule,
+            "spacing": spacing,
+            "coverage": coverage,
+            "tries": tries,
+        }
+    )
+    held = none() if fixed is None else rows(fixed, "fixed")
+    wanted = density_of(density, where)
+    count = None if n is None else _count(n)
+    return run(
+        lambda: _evenly.generate(count, held, native(where), wanted, options, threads, told(callback)),
+        lambda answer: _points(answer, where, method, chance),
+    )
+
+
+def optimize(
+    points: "ArrayLike | object",
+    *,
+    method: Optimizer | Literal["warp"] = "procrustes",
+    seed: Seed = 0,
+    space: object = None,
+    size: Pair | None = None,
+    origin: Pair | None = None,
+    density: Density = None,
+    fixed: "ArrayLike | object | None" = None,
+    warp: bool = True,
+    iterations: int | None = None,
+    preset: Literal["fast", "balanced", "tough", "paper1", "paper2", "paper3"] | None = None,
+    min_distance: Target = None,
+    coverage_radius: Target = None,
+    capacity_tolerance: Target = None,
+    beta: float | None = None,
+    mode: Literal["paper", "fast"] | None = None,
+    side: float | None = None,
+    tolerance: float | None = None,
+    relaxation: float | None = None,
+    local: bool = False,
+    damping: float | None = None,
+    schedule: Literal["in-turn", "summed"] | None = None,
+    threads: int | None = None,
+    callback: Callback | None = None,
+) -> Points:
+    """Make better points of points; those that come in are not changed.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, 2)
+        A `Points` brings its space along.
+    method : str
+        An optimiser, see `generate`; or 'warp', which only takes long density waves out.
+    fixed : array_like of shape (k, 2), optional
+        Points that stay where they are. They come first in the result; points at their places are left out.
+    seed, space, size, origin, density, warp, iterations, preset, min_distance, coverage_radius, capacity_tolerance, beta, mode, side, tolerance, relaxation, local, damping, schedule, threads, callback
+        As in `generate`.
+
+    Returns
+    -------
+    Points
+        As many points, in the same order.
+
+    Raises
+    ------
+    ValueError
+        For points that are not finite or lie outside the domain; the message names the row.
+    Interrupted
+        Where Ctrl-C ends the run; ``partial`` has the points reached.
+
+    Examples
+    --------
+    >>> import evenly, numpy
+    >>> noise = numpy.random.default_rng(1).random((500, 2))
+    >>> better = evenly.optimize(noise, method="push-pull")
+    >>> better.measure().min_distance > 0.84
+    True
+    """
+    positions = rows(points)
+    where = space_of(space, size, origin, points.space if isinstance(points, Points) else None)
+    chance = number(seed)
+    options = words(
+        {
+            "method": method,
+            "seed": chance,
+            "no_warp": not warp,
+            "iterations": iterations,
+            "preset": preset,
+            "min_distance": min_distance,
+            "coverage_radius": coverage_radius,
+            "capacity_tolerance": capacity_tolerance,
+            "beta": beta,
+            "mode": mode,
+            "side": side,
+            "tolerance": tolerance,
+            "relaxation": relaxation,
+            "local": local,
+            "damping": damping,
+            "schedule": schedule,
+        }
+    )
+    held = none() if fixed is None else rows(fixed, "fixed")
+    wanted = density_of(density, where)
+    return run(
+        lambda: _evenly.optimize(positions, held, native(where), wanted, options, threads, told(callback)),
+        lambda answer: _points(answer, where, method, chance),
+    )
+
+
+def _count(n: object) -> int:
+    if isinstance(n, bool) or not isinstance(n, (int, np.integer)):
+        raise TypeError(f"n must be a whole number, not {n!r}")
+    if n < 1:
+        raise ValueError(f"n is {n}; it must be 1 or more")
+    return int(n)
+
+
+def _points(answer: tuple[Floats, str], space: Space, method: str, seed: int) -> Points:
+    positions, text = answer
+    said = json.loads(text)
+    counted = said["run"] or {}
+    return Points(
+        positions=frozen(positions),
+        space=space,
+        method=method,
+        seed=seed,
+        outcome=counted.get("outcome", "made"),
+        iterations=counted.get("iterations", 0),
+        notes=tuple(said["notes"]),
+        unmet=tuple(said["unmet"]),
+        run=counted,
+    )

@@ -1,0 +1,158 @@
+"""Domains: tori, rectangles and polygons."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+
+from evenly import _evenly
+from evenly._arrays import rows
+
+Pair: TypeAlias = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Torus:
+    """A periodic rectangle: sets of points tile the plane."""
+
+    size: Pair = (1.0, 1.0)
+    """Width and height."""
+    origin: Pair = (0.0, 0.0)
+    """The lower left corner."""
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """A bounded rectangle."""
+
+    size: Pair = (1.0, 1.0)
+    """Width and height."""
+    origin: Pair = (0.0, 0.0)
+    """The lower left corner."""
+
+
+@dataclass(frozen=True, init=False)
+class Polygon:
+    """A polygon with holes, in one part or several, cleaned and checked.
+
+    Parameters
+    ----------
+    shape : object
+        A shapely polygon or multipolygon, or anything else with ``__geo_interface__``; a file (GeoJSON, WKT, SVG or text); a ring, as an array of
+        shape (n, 2); or a list of rings, the first of which is the outer one and the others its holes.
+
+    Raises
+    ------
+    ValueError
+        Where it is in doubt what is inside: the message has the place.
+
+    Examples
+    --------
+    >>> import evenly
+    >>> l_shape = evenly.Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+    >>> l_shape.area
+    3.0
+    >>> evenly.Polygon([[(0, 0), (3, 0), (3, 3), (0, 3)], [(1, 1), (2, 1), (2, 2), (1, 2)]]).area
+    8.0
+    """
+
+    rings: tuple[tuple[Pair, ...], ...]
+    """Outer rings counter-clockwise, holes clockwise; as they are after repairs."""
+    area: float
+    """What is enclosed, in input units squared."""
+    repairs: tuple[str, ...]
+    """What was repaired."""
+
+    def __init__(self, shape: object) -> None:
+        is_file = isinstance(shape, (str, os.PathLike))
+        rings, area, _, repairs = _evenly.read_polygon(os.fspath(cast("str", shape))) if is_file else _evenly.polygon(_parts(shape))
+        object.__setattr__(self, "rings", tuple(tuple(ring) for ring in rings))
+        object.__setattr__(self, "area", area)
+        object.__setattr__(self, "repairs", tuple(repairs))
+
+
+Space: TypeAlias = Torus | Rectangle | Polygon
+
+
+def space_of(space: object, size: Pair | None, origin: Pair | None, default: Space | None = None) -> Space:
+    """Return the domain that the arguments stand for."""
+    if space is None:
+        space = default if default is not None and size is None and origin is None else "torus"
+    if isinstance(space, (Torus, Rectangle, Polygon)):
+        if size is not None or origin is not None:
+            raise ValueError("size and origin are for space='torus' and 'rect'; this space has its own")
+        return space
+    if space in ("torus", "rect", "rectangle"):
+        kind = Torus if space == "torus" else Rectangle
+        return kind(_pair(size, "size", (1.0, 1.0)), _pair(origin, "origin", (0.0, 0.0)))
+    if size is not None or origin is not None:
+        raise ValueError("size and origin are for space='torus' and 'rect'; a polygon has its own")
+    if isinstance(space, str) and not os.path.exists(space):
+        raise ValueError(f"space is {space!r}; it must be 'torus', 'rect', a polygon or a polygon's file")
+    return Polygon(space)
+
+
+def native(space: Space) -> Any:
+    """Return what the native half takes."""
+    if isinstance(space, Polygon):
+        return [list(ring) for ring in space.rings]
+    kind = "torus" if isinstance(space, Torus) else "rectangle"
+    return (kind, _pair(space.origin, "origin", (0.0, 0.0)), _pair(space.size, "size", (1.0, 1.0)))
+
+
+def frame(space: Space) -> tuple[Pair, Pair]:
+    """Return the lower left corner and the size of what encloses a domain."""
+    if isinstance(space, Polygon):
+        corners = np.concatenate([np.asarray(ring) for ring in space.rings])
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        return (float(low[0]), float(low[1])), (float(high[0] - low[0]), float(high[1] - low[1]))
+    return space.origin, space.size
+
+
+def _pair(value: object, name: str, default: Pair) -> Pair:
+    if value is None:
+        return default
+    try:
+        x, y = (float(number) for number in cast("Sequence[Any]", value))
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is {value!r}; it must be two numbers") from None
+    return (x, y)
+
+
+def _ring(ring: object) -> list[Pair]:
+    return [(float(x), float(y)) for x, y in rows(ring, "a ring")]
+
+
+def _parts(shape: object) -> list[list[list[Pair]]]:
+    if hasattr(shape, "__geo_interface__"):
+        return _geo_parts(cast("dict[str, Any]", shape.__geo_interface__))
+    if isinstance(shape, dict):
+        return _geo_parts(cast("dict[str, Any]", shape))
+    if isinstance(shape, np.ndarray):
+        return [[_ring(shape)]]
+    try:
+        first = cast("Sequence[Any]", shape)[0]
+        is_ring = np.ndim(first[0]) == 0
+    except (TypeError, IndexError, KeyError):
+        raise ValueError("a polygon must be a shape, a file, a ring or a list of rings") from None
+    return [[_ring(shape)]] if is_ring else [[_ring(ring) for ring in cast("Sequence[Any]", shape)]]
+
+
+def _geo_parts(shape: dict[str, Any]) -> list[list[list[Pair]]]:
+    kind = shape.get("type")
+    if kind == "Feature":
+        return _geo_parts(shape["geometry"])
+    if kind in ("FeatureCollection", "GeometryCollection"):
+        members = shape["features" if kind == "FeatureCollection" else "geometries"]
+        return [part for member in members for part in _geo_parts(member)]
+    if kind == "Polygon":
+        return [[_flat(ring) for ring in shape["coordinates"]]]
+    if kind == "MultiPolygon":
+        return [[_flat(ring) for ring in part] for part in shape["coordinates"]]
+    raise ValueError(f"a polygon is needed, not a {kind}")
+
+
+def _flat(ring: Sequence[Sequence[float]]) -> list[Pair]:
+    return _ring([corner[:2] for corner in ring])

@@ -1,0 +1,170 @@
+//! Long work on threads of its own, while Python's main thread looks after Ctrl-C.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use evenly::{CancelToken, Phase, Progress, RunContext};
+use pyo3::create_exception;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::answer::Answer;
+
+create_exception!(_evenly, Stopped, PyKeyboardInterrupt, "A job was interrupted; the argument is a `Pending`.");
+
+/// How often signals are looked for, and how long an interrupted job may take to hand over before the interrupt is raised without it.
+const LOOK: Duration = Duration::from_millis(20);
+const GRACE: Duration = Duration::from_millis(50);
+
+/// A job's answer, when it is there.
+type Done = Result<Answer, Failure>;
+
+enum Failure {
+    /// Bad input.
+    Value(String),
+    /// What a callback has raised.
+    Raised(PyErr),
+    /// A fault of ours.
+    Panic(String),
+}
+
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Value(message) => PyValueError::new_err(message),
+            Failure::Raised(error) => error,
+            Failure::Panic(message) => PyRuntimeError::new_err(format!("a fault in evenly, please report it: {message}")),
+        }
+    }
+}
+
+/// Where a job leaves its answer.
+#[derive(Clone, Default)]
+struct Desk(Arc<(Mutex<Option<Done>>, Condvar)>);
+
+impl Desk {
+    fn leave(&self, done: Done) {
+        *self.0.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(done);
+        self.0.1.notify_all();
+    }
+
+    /// Waits so long at most.
+    fn take(&self, patience: Duration) -> Option<Done> {
+        let desk = self.0.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let (mut desk, _) = self.0.1.wait_timeout_while(desk, patience, |done| done.is_none()).unwrap_or_else(PoisonError::into_inner);
+        desk.take()
+    }
+}
+
+/// An interrupted job, which ends after the iteration at hand.
+#[pyclass(frozen)]
+pub struct Pending(Desk);
+
+#[pymethods]
+impl Pending {
+    /// Waits for the state reached; a second time there is none.
+    fn result(&self, py: Python) -> PyResult<Py<PyAny>> {
+        loop {
+            if let Some(done) = py.detach(|| self.0.take(LOOK)) {
+                return done.map_err(PyErr::from)?(py);
+            }
+            py.check_signals()?;
+        }
+    }
+}
+
+/// What a job is told besides its work.
+pub struct Terms {
+    /// `None` for as many as there are cores.
+    pub threads: Option<usize>,
+    /// Called after each iteration; false stops.
+    pub callback: Option<Py<PyAny>>,
+}
+
+/// Runs work on threads, and returns its answer. Another Python thread may go on meanwhile.
+pub fn run(
+    py: Python,
+    Terms { threads, callback }: Terms,
+    work: impl FnOnce(&mut RunContext, &CancelToken) -> anyhow::Result<Answer> + Send + 'static,
+) -> PyResult<Py<PyAny>> {
+    let (desk, cancel) = (Desk::default(), CancelToken::default());
+    let (theirs, token) = (desk.clone(), cancel.clone());
+    let on_threads = move || -> Done {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build().map_err(|e| Failure::Value(e.to_string()))?;
+        pool.install(|| {
+            let mut raised = None;
+            let done = {
+                let on_progress = |progress: Progress| {
+                    if let Some(callback) = callback.as_ref().filter(|_| progress.phase == Phase::Optimize && progress.iteration > 0) {
+                        match goes_on(callback, progress) {
+                            Ok(true) => {}
+                            Ok(false) => token.cancel(),
+                            Err(error) => {
+                                token.cancel();
+                                raised.get_or_insert(error);
+                            }
+                        }
+                    }
+                };
+                let mut context = RunContext::default().with_cancel(token.clone()).on_progress(on_progress);
+                work(&mut context, &token)
+            };
+            match raised {
+                Some(error) => Err(Failure::Raised(error)),
+                None => done.map_err(|error| Failure::Value(in_python(&format!("{error:#}")))),
+            }
+        })
+    };
+    std::thread::spawn(move || {
+        let done = catch_unwind(AssertUnwindSafe(on_threads));
+        theirs.leave(done.unwrap_or_else(|fault| Err(Failure::Panic(told(&*fault)))));
+    });
+    loop {
+        if let Some(done) = py.detach(|| desk.take(LOOK)) {
+            return done.map_err(PyErr::from)?(py);
+        }
+        if py.check_signals().is_err() {
+            cancel.cancel();
+            let since = Instant::now();
+            // Those who come back at once are waited for.
+            while since.elapsed() < GRACE {
+                if let Some(done) = py.detach(|| desk.take(GRACE)) {
+                    desk.leave(done);
+                    break;
+                }
+            }
+            return Err(Stopped::new_err((Py::new(py, Pending(desk))?,)));
+        }
+    }
+}
+
+/// Asks a callback whether to go on.
+fn goes_on(callback: &Py<PyAny>, progress: Progress) -> PyResult<bool> {
+    Python::attach(|py| {
+        let Progress { iteration, energy, stable_share, fraction, .. } = progress;
+        let answer = callback.call1(py, (iteration, energy, stable_share, fraction))?;
+        // None, which functions return that say nothing, is no refusal.
+        Ok(answer.is_none(py) || answer.is_truthy(py)?)
+    })
+}
+
+fn told(fault: &(dyn std::any::Any + Send)) -> String {
+    let text = fault.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| fault.downcast_ref::<String>().cloned()).unwrap_or_default()
+}
+
+/// A message about flags as one about arguments: `--min-distance` is `min_distance` there.
+fn in_python(message: &str) -> String {
+    let mut parts = message.split("--");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let end = part.find(|c: char| !(c.is_ascii_lowercase() || c == '-')).unwrap_or(part.len());
+        text.push_str(&part[..end].replace('-', "_"));
+        // The name of a value.
+        let rest = &part[end..];
+        let named = rest.strip_prefix(" <").and_then(|rest| rest.split_once('>'));
+        text.push_str(named.map_or(rest, |(_, after)| after));
+    }
+    text.replace("n_points", "n")
+}

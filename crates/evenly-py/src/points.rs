@@ -1,0 +1,141 @@
+//! Points: made, made better, and measured.
+
+use evenly::PointSet;
+use evenly_cli::wishes::{Made, Wishes};
+use evenly_io::{Draw, Subject};
+use pyo3::prelude::*;
+
+use crate::answer::{Answer, answer, json};
+use crate::arrays::{Rows, array, numbers};
+use crate::job::{Terms, run};
+use crate::spaces::{DensityArg, SpaceArg, point_set};
+
+/// Positions, and the report as JSON.
+fn made(made: Made) -> anyhow::Result<Answer> {
+    let said = json(&serde_json::json!({ "run": made.report, "notes": made.notes, "unmet": made.unmet }))?;
+    let positions = made.points.into_positions();
+    answer(move |py| Ok((array(py, positions)?, said).into_pyobject(py)?.into_any().unbind()))
+}
+
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the package's wrappers name them all")]
+pub fn generate(
+    py: Python,
+    n: Option<usize>,
+    fixed: Rows,
+    space: SpaceArg,
+    density: Option<DensityArg>,
+    words: Vec<String>,
+    threads: Option<usize>,
+    callback: Option<Py<PyAny>>,
+) -> PyResult<Py<PyAny>> {
+    let n_fixed = numpy::PyUntypedArrayMethods::shape(&*fixed)[0];
+    let fixed = point_set(&fixed, space, density, n_fixed)?;
+    run(py, Terms { threads, callback }, move |context, _| made(Wishes::parse(&words)?.generate(&fixed, n, context)?))
+}
+
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the package's wrappers name them all")]
+pub fn optimize(
+    py: Python,
+    points: Rows,
+    fixed: Rows,
+    space: SpaceArg,
+    density: Option<DensityArg>,
+    words: Vec<String>,
+    threads: Option<usize>,
+    callback: Option<Py<PyAny>>,
+) -> PyResult<Py<PyAny>> {
+    let n_fixed = numpy::PyUntypedArrayMethods::shape(&*fixed)[0];
+    let fixed = point_set(&fixed, space, density, n_fixed)?;
+    let points = PointSet::new(fixed.space(), crate::arrays::rows(&points)?).map_err(crate::spaces::value_error)?;
+    run(py, Terms { threads, callback }, move |context, _| made(Wishes::parse(&words)?.optimize(&fixed, points, context)?))
+}
+
+/// All measures, as JSON.
+#[pyfunction]
+pub fn measure(py: Python, points: Rows, space: SpaceArg, density: Option<DensityArg>, threads: Option<usize>) -> PyResult<Py<PyAny>> {
+    let points = point_set(&points, space, density, 0)?;
+    run(py, Terms { threads, callback: None }, move |_, _| {
+        let said = json(&evenly::measure(&points)?)?;
+        answer(move |py| Ok(said.into_pyobject(py)?.into_any().unbind()))
+    })
+}
+
+/// The plane of power, `power[a][b + half height]`, and the means over rings.
+#[pyfunction]
+pub fn power_spectrum(py: Python, sets: Vec<Rows>, space: SpaceArg, max_frequency: f64, threads: Option<usize>) -> PyResult<Py<PyAny>> {
+    let sets = all(&sets, space)?;
+    run(py, Terms { threads, callback: None }, move |_, _| {
+        let spectrum = evenly::power_spectrum(&sets, max_frequency)?;
+        let [half_width, half_height] = spectrum.half_size().map(|n| n as i64);
+        let plane = (-half_height..=half_height).flat_map(|b| (-half_width..=half_width).map(move |a| (a, b)));
+        let power: Vec<f64> = plane.map(|(a, b)| spectrum.power(a, b).unwrap_or(f64::NAN)).collect();
+        answer(move |py| {
+            let whole = (
+                numbers(py, power),
+                (2 * half_width + 1, 2 * half_height + 1),
+                spectrum.step(),
+                numbers(py, spectrum.ring_frequencies),
+                numbers(py, spectrum.ring_power),
+                numbers(py, spectrum.anisotropy_db),
+            );
+            Ok(whole.into_pyobject(py)?.into_any().unbind())
+        })
+    })
+}
+
+/// The radial means, and what is derived from them.
+#[pyfunction]
+pub fn radial_spectrum(py: Python, sets: Vec<Rows>, space: SpaceArg, threads: Option<usize>) -> PyResult<Py<PyAny>> {
+    let sets = all(&sets, space)?;
+    run(py, Terms { threads, callback: None }, move |_, _| {
+        let radial = evenly::radial_spectrum(&sets)?;
+        answer(move |py| {
+            let whole = (
+                numbers(py, radial.frequencies),
+                numbers(py, radial.radial_power),
+                numbers(py, radial.distances),
+                numbers(py, radial.pair_correlation),
+                radial.effective_nyquist,
+                radial.oscillation,
+            );
+            Ok(whole.into_pyobject(py)?.into_any().unbind())
+        })
+    })
+}
+
+fn all(sets: &[Rows], space: SpaceArg) -> PyResult<Vec<PointSet>> {
+    let space = space.space()?;
+    sets.iter().map(|set| PointSet::new(&space, crate::arrays::rows(set)?).map_err(crate::spaces::value_error)).collect()
+}
+
+/// The corners of the Delaunay triangles, as (3 k, 2) places: on a torus those near the seam reach out of the domain.
+#[pyfunction]
+pub fn triangles(py: Python, points: Rows, space: SpaceArg, threads: Option<usize>) -> PyResult<Py<PyAny>> {
+    let points = point_set(&points, space, None, 0)?;
+    run(py, Terms { threads, callback: None }, move |_, _| {
+        let corners: Vec<[f64; 2]> = evenly::tessellate(&points)?.corners.into_iter().flatten().collect();
+        answer(move |py| array(py, corners))
+    })
+}
+
+/// A figure of points as SVG, by the command line's names of what is drawn.
+#[pyfunction]
+pub fn figure(py: Python, points: Rows, space: SpaceArg, density: Option<DensityArg>, draw: Vec<String>) -> PyResult<Py<PyAny>> {
+    let points = point_set(&points, space, density, 0)?;
+    run(py, Terms { threads: None, callback: None }, move |_, _| {
+        let draw: Vec<Draw> = draw.iter().map(|name| evenly_cli::draw(name)).collect::<Result<_, _>>()?;
+        let svg = evenly_io::figure(&Subject::from(&points), &draw, "")?;
+        answer(move |py| Ok(svg.into_pyobject(py)?.into_any().unbind()))
+    })
+}
+
+/// A figure as PNG.
+#[pyfunction]
+pub fn rendered(py: Python, svg: String) -> PyResult<Py<PyAny>> {
+    run(py, Terms { threads: None, callback: None }, move |_, _| {
+        let png = evenly_io::rendered(&svg)?;
+        answer(move |py| Ok(pyo3::types::PyBytes::new(py, &png).into_any().unbind()))
+    })
+}

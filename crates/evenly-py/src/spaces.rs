@@ -1,0 +1,81 @@
+//! Domains and densities, as the package hands them over.
+
+use std::path::PathBuf;
+
+use evenly::{Density, PointSet, Polygon, Rectangle, Space, Torus};
+use numpy::{PyReadonlyArray2, PyUntypedArrayMethods as _};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, rows};
+
+/// Rings, an odd number of which enclose the inside.
+pub type Rings = Vec<Vec<[f64; 2]>>;
+/// Parts, each an outer ring and its holes.
+type Parts = Vec<Vec<Vec<[f64; 2]>>>;
+
+/// A domain: `("torus" | "rectangle", origin, size)`, or the rings of a polygon.
+#[derive(FromPyObject)]
+pub enum SpaceArg {
+    Box(String, [f64; 2], [f64; 2]),
+    Polygon(Rings),
+}
+
+/// A density: none, an array of pixels, or the command line's words for a picture.
+#[derive(FromPyObject)]
+pub enum DensityArg<'py> {
+    Pixels(PyReadonlyArray2<'py, f32>),
+    Words(String),
+}
+
+pub fn value_error(error: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+impl SpaceArg {
+    pub fn space(self) -> PyResult<Space> {
+        match self {
+            Self::Box(kind, origin, size) if kind == "torus" => Ok(Torus::new(origin, size).map_err(value_error)?.into()),
+            Self::Box(_, origin, size) => Ok(Rectangle::new(origin, size).map_err(value_error)?.into()),
+            Self::Polygon(rings) => Ok(Space::from(&Polygon::from_rings(rings).map_err(value_error)?)),
+        }
+    }
+}
+
+/// The density; uniform if none is given.
+pub fn density(density: Option<DensityArg>) -> PyResult<Density> {
+    match density {
+        None => Ok(Density::uniform()),
+        Some(DensityArg::Words(words)) => evenly_cli::density(&words).map_err(|error| value_error(format!("{error:#}"))),
+        Some(DensityArg::Pixels(pixels)) => {
+            let [height, width] = [0, 1].map(|axis| pixels.shape()[axis]);
+            let values = pixels.as_slice().map_err(value_error)?;
+            Density::image(width, height, values).map_err(value_error)
+        }
+    }
+}
+
+/// Points with all that goes with them, of which the first `n_fixed` stay.
+pub fn point_set(positions: &Rows, space: SpaceArg, wanted: Option<DensityArg>, n_fixed: usize) -> PyResult<PointSet> {
+    let points = PointSet::new(space.space()?, rows(positions)?).map_err(value_error)?;
+    points.with_density(&density(wanted)?).with_fixed(n_fixed).map_err(value_error)
+}
+
+/// A polygon's clean rings, its area, its frame and what was repaired.
+type Clean = (Vec<Vec<[f64; 2]>>, f64, ([f64; 2], [f64; 2]), Vec<String>);
+
+#[pyfunction]
+pub fn polygon(parts: Parts) -> PyResult<Clean> {
+    Ok(clean(&Polygon::new(parts).map_err(value_error)?))
+}
+
+/// The same of a file.
+#[pyfunction]
+pub fn read_polygon(path: PathBuf) -> PyResult<Clean> {
+    Ok(clean(&evenly_io::read_polygon(&path, None).map_err(value_error)?))
+}
+
+fn clean(polygon: &Polygon) -> Clean {
+    let frame = Space::from(*polygon.frame());
+    (polygon.rings().to_vec(), polygon.area(), (frame.origin(), frame.size()), polygon.repairs().to_vec())
+}

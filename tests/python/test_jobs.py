@@ -1,0 +1,87 @@
+"""Long calls leave Python free, and Ctrl-C ends them at once and loses nothing."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import evenly
+import numpy as np
+import pytest
+
+N = 200_000
+
+
+def test_another_thread_goes_on():
+    ticks = []
+    done = threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.002)
+
+    other = threading.Thread(target=tick)
+    other.start()
+    evenly.generate(N, method="lloyd", iterations=5)
+    done.set()
+    other.join()
+    assert len(ticks) > 20
+
+
+def interrupted(code):
+    """Run code that prints READY, interrupt it, and return what it says then."""
+    child = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code)], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline().strip() == "READY"
+    time.sleep(0.3)
+    child.send_signal(signal.SIGINT)
+    said, _ = child.communicate(timeout=60)
+    return child.returncode, said
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are sent otherwise")
+@pytest.mark.parametrize(
+    "call",
+    [
+        f"evenly.generate({N}, method='lloyd', iterations=100_000)",
+        "evenly.mesh([(0, 0), (1, 0), (1, 1), (0, 1)], spacing=0.003, method='lloyd', iterations=100_000)",
+        "evenly.stipple(numpy.tile(numpy.linspace(0, 1, 500), (500, 1)), 200_000, method='lloyd', iterations=100_000)",
+    ],
+)
+def test_an_interrupt_is_raised_soon_and_keeps_the_state(call):
+    code, said = interrupted(f"""
+        import time, signal, numpy, evenly
+        asked = []
+        default = signal.getsignal(signal.SIGINT)
+        def note(number, frame):
+            asked.append(time.perf_counter())
+            default(number, frame)
+        signal.signal(signal.SIGINT, note)
+        print("READY", flush=True)
+        try:
+            {call}
+        except evenly.Interrupted as stopped:
+            late = time.perf_counter() - asked[0]
+            partial = stopped.partial
+            print(isinstance(stopped, KeyboardInterrupt), late < 1.0, len(numpy.asarray(getattr(partial, "vertices", partial))) > 1000)
+            print(stopped.partial is partial)
+    """)
+    assert code == 0
+    assert said.split() == ["True", "True", "True", "True"]
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_forks_work():
+    before = evenly.generate(2000, method="push-pull", seed=4).positions
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        for positions in pool.map(_made, [4, 4]):
+            np.testing.assert_array_equal(positions, before)
+
+
+def _made(seed):
+    return np.asarray(evenly.generate(2000, method="push-pull", seed=seed))
