@@ -94,3 +94,49 @@ def test_points_outside_are_named():
 def test_what_is_no_polygon_is_a_value_error(shape, message):
     with pytest.raises(ValueError, match=message):
         evenly.Polygon(shape)
+
+
+def test_what_only_looks_like_points_is_refused():
+    masked = np.ma.masked_array(BASE, mask=BASE > 0.9)
+    with pytest.raises(ValueError, match="masked"):
+        evenly.measure(masked)
+    with pytest.raises(ValueError, match="vertices"):
+        evenly.measure(evenly.mesh([(0, 0), (1, 0), (1, 1)], spacing=0.5))
+    with pytest.raises(ValueError, match="different spaces"):
+        evenly.power_spectrum([evenly.generate(50), evenly.generate(50, size=(2, 1))])
+
+
+def test_empty_constraints_are_none():
+    assert len(evenly.generate(20, fixed=[])) == 20
+    assert len(evenly.mesh([(0, 0), (1, 0), (1, 1)], spacing=0.5, fixed=np.empty((0, 2)), lines=[], sizes=[]).triangles) > 1
+
+
+@pytest.mark.parametrize(
+    "ring",
+    [[(0, 0), (0, 3), (3, 3), (3, 0)], [(0.1, 0.2), (0.7, 3.3), (1.5, 1.75), (2.9, 3.1), (2.2, 0.3)], [(0, 0), (1, 0), (2, 0), (2, 1.1), (0, 1.3)]],
+)
+def test_polygons_are_those_of_the_command_line(tmp_path, ring):
+    import json
+    import subprocess
+    import sys
+    from pathlib import Path
+
+    shape = {"type": "Polygon", "coordinates": [[*ring, ring[0]]]}
+    (tmp_path / "area.geojson").write_text(json.dumps(shape))
+    command = [Path(sys.executable).with_name("evenly"), "generate", "-n", "200", "--method", "push-pull", "--space", "area.geojson", "-o", "points.npy"]
+    # 1: a target may be missed.
+    assert subprocess.run(command, cwd=tmp_path, capture_output=True, check=False).returncode in (0, 1)
+    assert evenly.Polygon(shape) == evenly.Polygon(tmp_path / "area.geojson")
+    for space in (shape, np.array(ring), tmp_path / "area.geojson"):
+        ours = evenly.generate(200, method="push-pull", space=space)
+        np.testing.assert_array_equal(np.load(tmp_path / "points.npy"), ours.positions)
+
+
+def test_spaces_are_values():
+    polygon = evenly.Polygon([(0, 0), (1, 0), (1, 1)])
+    assert hash(polygon) == hash(evenly.Polygon(polygon)) and polygon == evenly.Polygon(polygon)
+    assert evenly.Torus([2, 1]) == evenly.Torus((2.0, 1.0)) and hash(evenly.Torus([2, 1])) == hash(evenly.Torus((2, 1)))
+    assert repr(polygon) == "<polygon of 1 rings with 3 corners, area 0.5>"
+    for wrong in (2, (0, 1), (np.nan, 1), (1, 2, 3)):
+        with pytest.raises(ValueError, match="size is"):
+            evenly.Torus(wrong)

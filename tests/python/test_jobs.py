@@ -85,3 +85,43 @@ def test_forks_work():
 
 def _made(seed):
     return np.asarray(evenly.generate(2000, method="push-pull", seed=seed))
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there is no alarm")
+def test_what_another_signal_raises_is_raised():
+    class Late(Exception):
+        pass
+
+    def raise_late(_number, _frame):
+        raise Late
+
+    before = signal.signal(signal.SIGALRM, raise_late)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(Late):
+            evenly.generate(N, method="lloyd", iterations=100_000)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+
+
+def test_a_partial_that_failed_fails_again():
+    def fail():
+        raise ZeroDivisionError
+
+    interrupted = evenly.Interrupted(fail)
+    for _ in range(2):
+        with pytest.raises(ZeroDivisionError):
+            _ = interrupted.partial
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are sent otherwise")
+def test_an_interrupted_comparison_keeps_its_runs():
+    code, said = interrupted(f"""
+        import evenly
+        print("READY", flush=True)
+        try:
+            evenly.compare({N}, methods=["white", "lloyd", "lloyd"], runs=1)
+        except evenly.Interrupted as stopped:
+            print(type(stopped.partial).__name__)
+    """)
+    assert (code, said.split()) == (0, ["Comparison"])

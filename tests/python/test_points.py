@@ -151,3 +151,42 @@ def test_targets_that_are_missed_are_told():
 def test_bad_wishes_are_value_errors(message, arguments):
     with pytest.raises(ValueError, match=message):
         evenly.generate(**arguments)
+
+
+@pytest.mark.parametrize("method", ["dart", "jittered", "hexagonal", "opt-beta", "cvt", "farthest-point"])
+def test_methods_that_know_no_density_refuse_it(method):
+    with pytest.raises(ValueError, match="density is for method"):
+        evenly.generate(100, method=method, density=[[1.0, 2.0]])
+
+
+@pytest.mark.parametrize(
+    ("kind", "arguments"),
+    [
+        (TypeError, {"n": 10.0}),
+        (TypeError, {"n": 10, "method": None}),
+        (TypeError, {"n": 10, "local": 1}),
+        (TypeError, {"n": 10, "warp": "no"}),
+        (TypeError, {"n": 10, "method": "well-spaced", "beta": "0.7"}),
+        (TypeError, {"n": 10, "method": "well-spaced", "beta": True}),
+        (TypeError, {"n": 10, "method": "lloyd", "iterations": True}),
+        (ValueError, {"n": 2**70}),
+        (ValueError, {"n": 10, "threads": -1}),
+        (ValueError, {"n": 10, "threads": 0}),
+        (ValueError, {"n": 10, "method": "well-spaced", "beta": float("nan")}),
+    ],
+)
+def test_arguments_of_wrong_kinds_are_refused(kind, arguments):
+    with pytest.raises(kind):
+        evenly.generate(**arguments)
+
+
+def test_copies_are_frozen_too():
+    points = evenly.generate(50)
+    for other in (copy.deepcopy(points), pickle.loads(pickle.dumps(points))):
+        assert not other.positions.flags.writeable
+    assert hash(points.measure()) == hash(points.measure())
+
+
+def test_falsy_answers_of_callbacks_go_on():
+    assert evenly.generate(300, method="lloyd", callback=lambda *_: 0).outcome == "iterations_done"
+    assert evenly.generate(300, method="lloyd", callback=lambda *_: np.False_).outcome == "cancelled"

@@ -101,6 +101,11 @@ def test_dots_follow_the_picture():
     for wrong, message in [(np.zeros((2, 2, 2)), "channels"), (np.zeros(3), "shape"), (np.ones((4, 4)), "no place for points"), ("no.png", "no.png")]:
         with pytest.raises(ValueError, match=message):
             evenly.stipple(wrong, 10)
+    for wrong in (ramp.astype(float), ramp.astype(int) * 200, ramp.astype(np.int16) - 300):
+        with pytest.raises(ValueError, match="picture must have whole numbers"):
+            evenly.stipple(wrong, 10)
+    with pytest.raises(ValueError, match="iterations is for optimisers"):
+        evenly.stipple(ramp, 10, method="white", iterations=5)
     with pytest.raises(ValueError, match="n is 0"):
         evenly.stipple(ramp, 0)
 
@@ -139,6 +144,11 @@ def test_an_engine_of_scipy():
     again = engine.reset().random(500)
     np.testing.assert_array_equal(again, BlueNoise(seed=3).random(500))
     assert qmc.scale(again, [1, 2], [3, 4]).min() >= 1
+    np.testing.assert_array_equal(BlueNoise(rng=3).random(8), BlueNoise(seed=3).random(8))
+    assert BlueNoise(seed=np.random.RandomState(3)).random(4).shape == (4, 2)
+    assert BlueNoise(seed=3).fast_forward(5).random(4).shape == (4, 2)
+    with pytest.raises(ValueError, match="invalid value"):
+        BlueNoise(method="nonsense")
     with pytest.raises(ValueError, match="d is 3"):
         BlueNoise(d=3)
 

@@ -157,6 +157,14 @@ impl Method {
         BY_DENSITY.contains(&self)
     }
 
+    /// Refuses a method that knows no density, where there is one.
+    pub fn refuse_density(self) -> anyhow::Result<()> {
+        if !self.knows_density() {
+            bail!("--density is for --method {}", names(BY_DENSITY));
+        }
+        Ok(())
+    }
+
     /// Refuses a start that knows no density, where there is one.
     pub fn require_density(self) -> anyhow::Result<()> {
         let known: Vec<Self> = BY_DENSITY.iter().copied().filter(|method| method.is_start()).collect();

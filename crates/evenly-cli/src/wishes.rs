@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, bail};
 use clap::{ArgMatches, FromArgMatches as _, Parser};
-use evenly::{PointSet, Report, RunContext, measure, warp};
+use evenly::{Outcome, PointSet, Report, RunContext, measure, warp};
 
 use crate::improve::{KEPT, is_nearer, notes, warp_for};
 use crate::input;
@@ -66,6 +66,9 @@ impl Wishes {
     pub fn generate(&self, fixed: &PointSet, n_points: Option<usize>, run: &mut RunContext) -> anyhow::Result<Made> {
         let Flags { method, start, seed, optimizer: flags, starts } = &self.flags;
         let has_density = !fixed.density().is_uniform();
+        if has_density {
+            method.refuse_density()?;
+        }
         match &self.optimizer {
             Some(optimizer) => {
                 let begin = start.unwrap_or(method.default_start(fixed.space(), has_density));
@@ -90,6 +93,9 @@ impl Wishes {
     /// # Errors
     /// As `evenly optimize`.
     pub fn optimize(&self, fixed: &PointSet, points: PointSet, run: &mut RunContext) -> anyhow::Result<Made> {
+        if !fixed.density().is_uniform() {
+            self.flags.method.refuse_density()?;
+        }
         let mut points = input::joined(fixed, points)?.with_density(fixed.density());
         match &self.optimizer {
             Some(optimizer) => improved(points, &**optimizer, !self.flags.optimizer.no_warp, run),
@@ -111,6 +117,10 @@ fn improved(mut points: PointSet, optimizer: &dyn Optimizer, is_warped: bool, ru
     let advice = optimizer.targets().and_then(|targets| targets.advice(points.space()));
     let report = optimizer.run(&mut points, run)?;
     let mut notes: Vec<String> = advice.into_iter().chain(notes(&report)).collect();
+    if report.outcome == Outcome::Cancelled {
+        // Whoever has interrupted wants the state reached, and soon.
+        return Ok(Made { points, report: Some(report), notes, unmet: Vec::new() });
+    }
     if let Some(start) = start
         && is_nearer(&start, &points, &report, optimizer)
     {

@@ -31,14 +31,6 @@ pub fn picture(image: &Image) -> String {
     drawing(size, "", &svg::embedded(&png, size))
 }
 
-/// A figure as PNG, two pixels to a unit.
-///
-/// # Errors
-/// [`Error::Content`] where it cannot be drawn.
-pub fn rendered(svg: &str) -> Result<Vec<u8>, Error> {
-    crate::render::png(svg, "").map_err(|e| Error::content("the figure", e))
-}
-
 /// Draws a figure: a map of all layers together, as large as there is room; or panels, the map first and then each chart.
 ///
 /// # Errors

@@ -20,12 +20,13 @@ mod text;
 
 pub use drawing::{Drawing, Layer, Marks};
 pub use error::Error;
-pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture, rendered};
+pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture};
 pub use file::{Target, make_folder, read_positions, read_rows};
 pub use format::Format;
 pub use image::{read_image, write_image};
 pub use meshes::{MeshFormat, mesh_svg, write_mesh, write_polygons};
 pub use output::{write_figure, write_points};
 pub use photograph::{Photograph, Tone, luma};
+pub use render::rendered;
 pub use scraps::Scraps;
 pub use shapes::{read_lines, read_polygon};

@@ -10,6 +10,7 @@ use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::fontdb::{Database, Source};
 use resvg::usvg::{Options, Tree};
 
+use crate::Error;
 use crate::figure::FONT;
 use crate::pixels::encode;
 
@@ -21,6 +22,14 @@ const SCALE: f32 = 2.0;
 const MM_PER_INCH: f64 = 25.4;
 const UNITS_PER_INCH: f64 = 96.0;
 const POINTS_PER_INCH: f64 = 72.0;
+
+/// A figure as PNG, two pixels to a unit, on white.
+///
+/// # Errors
+/// [`Error::Content`] where it cannot be drawn.
+pub fn rendered(svg: &str) -> Result<Vec<u8>, Error> {
+    png(svg, "").map_err(|e| Error::content("the figure", e))
+}
 
 /// Renders an SVG as a PNG, two pixels to a unit, on white; the recipe becomes its comment.
 pub(crate) fn png(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {

@@ -124,8 +124,11 @@ pub fn run(
         if let Some(done) = py.detach(|| desk.take(LOOK)) {
             return done.map_err(PyErr::from)?(py);
         }
-        if py.check_signals().is_err() {
+        if let Err(signal) = py.check_signals() {
             cancel.cancel();
+            if !signal.is_instance_of::<PyKeyboardInterrupt>(py) {
+                return Err(signal);
+            }
             let since = Instant::now();
             // Those who come back at once are waited for.
             while since.elapsed() < GRACE {
@@ -144,8 +147,8 @@ fn goes_on(callback: &Py<PyAny>, progress: Progress) -> PyResult<bool> {
     Python::attach(|py| {
         let Progress { iteration, energy, stable_share, fraction, .. } = progress;
         let answer = callback.call1(py, (iteration, energy, stable_share, fraction))?;
-        // None, which functions return that say nothing, is no refusal.
-        Ok(answer.is_none(py) || answer.is_truthy(py)?)
+        // False alone is a refusal, numpy's too; functions that say nothing return None.
+        Ok(answer.extract::<bool>(py).unwrap_or(true))
     })
 }
 

@@ -27,12 +27,12 @@ pub fn mesh(
     threads: Option<usize>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
-    let polygon = Polygon::from_rings(rings).map_err(value_error)?;
+    let polygon = py.detach(|| Polygon::from_rings(rings)).map_err(value_error)?;
     let given = Given {
         fixed: rows(&fixed)?,
         lines: lines.iter().map(rows).collect::<PyResult<_>>()?,
         sizes: sizes.as_ref().map(rows).transpose()?,
-        density: wanted.map(|wanted| density(Some(wanted))).transpose()?,
+        density: wanted.map(|wanted| density(py, Some(wanted))).transpose()?,
     };
     run(py, Terms { threads, callback }, move |context, _| {
         let made = meshed(&polygon, "the polygon".as_ref(), &wishes(&words)?, given, context)?;

@@ -30,7 +30,7 @@ pub fn generate(
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let n_fixed = numpy::PyUntypedArrayMethods::shape(&*fixed)[0];
-    let fixed = point_set(&fixed, space, density, n_fixed)?;
+    let fixed = point_set(py, &fixed, space, density, n_fixed)?;
     run(py, Terms { threads, callback }, move |context, _| made(Wishes::parse(&words)?.generate(&fixed, n, context)?))
 }
 
@@ -47,7 +47,7 @@ pub fn optimize(
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let n_fixed = numpy::PyUntypedArrayMethods::shape(&*fixed)[0];
-    let fixed = point_set(&fixed, space, density, n_fixed)?;
+    let fixed = point_set(py, &fixed, space, density, n_fixed)?;
     let points = PointSet::new(fixed.space(), crate::arrays::rows(&points)?).map_err(crate::spaces::value_error)?;
     run(py, Terms { threads, callback }, move |context, _| made(Wishes::parse(&words)?.optimize(&fixed, points, context)?))
 }
@@ -55,7 +55,7 @@ pub fn optimize(
 /// All measures, as JSON.
 #[pyfunction]
 pub fn measure(py: Python, points: Rows, space: SpaceArg, density: Option<DensityArg>, threads: Option<usize>) -> PyResult<Py<PyAny>> {
-    let points = point_set(&points, space, density, 0)?;
+    let points = point_set(py, &points, space, density, 0)?;
     run(py, Terms { threads, callback: None }, move |_, _| {
         let said = json(&evenly::measure(&points)?)?;
         answer(move |py| Ok(said.into_pyobject(py)?.into_any().unbind()))
@@ -113,7 +113,7 @@ fn all(sets: &[Rows], space: SpaceArg) -> PyResult<Vec<PointSet>> {
 /// The corners of the Delaunay triangles, as (3 k, 2) places: on a torus those near the seam reach out of the domain.
 #[pyfunction]
 pub fn triangles(py: Python, points: Rows, space: SpaceArg, threads: Option<usize>) -> PyResult<Py<PyAny>> {
-    let points = point_set(&points, space, None, 0)?;
+    let points = point_set(py, &points, space, None, 0)?;
     run(py, Terms { threads, callback: None }, move |_, _| {
         let corners: Vec<[f64; 2]> = evenly::tessellate(&points)?.corners.into_iter().flatten().collect();
         answer(move |py| array(py, corners))
@@ -123,7 +123,7 @@ pub fn triangles(py: Python, points: Rows, space: SpaceArg, threads: Option<usiz
 /// A figure of points as SVG, by the command line's names of what is drawn.
 #[pyfunction]
 pub fn figure(py: Python, points: Rows, space: SpaceArg, density: Option<DensityArg>, draw: Vec<String>) -> PyResult<Py<PyAny>> {
-    let points = point_set(&points, space, density, 0)?;
+    let points = point_set(py, &points, space, density, 0)?;
     run(py, Terms { threads: None, callback: None }, move |_, _| {
         let draw: Vec<Draw> = draw.iter().map(|name| evenly_cli::draw(name)).collect::<Result<_, _>>()?;
         let svg = evenly_io::figure(&Subject::from(&points), &draw, "")?;

@@ -43,36 +43,37 @@ impl SpaceArg {
 }
 
 /// The density; uniform if none is given.
-pub fn density(density: Option<DensityArg>) -> PyResult<Density> {
+pub fn density(py: Python, density: Option<DensityArg>) -> PyResult<Density> {
     match density {
         None => Ok(Density::uniform()),
-        Some(DensityArg::Words(words)) => evenly_cli::density(&words).map_err(|error| value_error(format!("{error:#}"))),
+        Some(DensityArg::Words(words)) => py.detach(|| evenly_cli::density(&words)).map_err(|error| value_error(format!("{error:#}"))),
         Some(DensityArg::Pixels(pixels)) => {
             let [height, width] = [0, 1].map(|axis| pixels.shape()[axis]);
-            let values = pixels.as_slice().map_err(value_error)?;
-            Density::image(width, height, values).map_err(value_error)
+            let values = pixels.as_slice().map_err(value_error)?.to_vec();
+            py.detach(|| Density::image(width, height, &values)).map_err(value_error)
         }
     }
 }
 
 /// Points with all that goes with them, of which the first `n_fixed` stay.
-pub fn point_set(positions: &Rows, space: SpaceArg, wanted: Option<DensityArg>, n_fixed: usize) -> PyResult<PointSet> {
-    let points = PointSet::new(space.space()?, rows(positions)?).map_err(value_error)?;
-    points.with_density(&density(wanted)?).with_fixed(n_fixed).map_err(value_error)
+pub fn point_set(py: Python, positions: &Rows, space: SpaceArg, wanted: Option<DensityArg>, n_fixed: usize) -> PyResult<PointSet> {
+    let positions = rows(positions)?;
+    let points = py.detach(|| PointSet::new(space.space()?, positions).map_err(value_error))?;
+    points.with_density(&density(py, wanted)?).with_fixed(n_fixed).map_err(value_error)
 }
 
 /// A polygon's clean rings, its area, its frame and what was repaired.
 type Clean = (Vec<Vec<[f64; 2]>>, f64, ([f64; 2], [f64; 2]), Vec<String>);
 
 #[pyfunction]
-pub fn polygon(parts: Parts) -> PyResult<Clean> {
-    Ok(clean(&Polygon::new(parts).map_err(value_error)?))
+pub fn polygon(py: Python, parts: Parts) -> PyResult<Clean> {
+    py.detach(|| Ok(clean(&Polygon::new(parts).map_err(value_error)?)))
 }
 
 /// The same of a file.
 #[pyfunction]
-pub fn read_polygon(path: PathBuf) -> PyResult<Clean> {
-    Ok(clean(&evenly_io::read_polygon(&path, None).map_err(value_error)?))
+pub fn read_polygon(py: Python, path: PathBuf) -> PyResult<Clean> {
+    py.detach(|| Ok(clean(&evenly_io::read_polygon(&path, None).map_err(value_error)?)))
 }
 
 fn clean(polygon: &Polygon) -> Clean {

@@ -30,7 +30,7 @@ pub fn stipple(
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let photograph = match picture {
-        Picture::File(path) => Photograph::read(&path).map_err(value_error)?,
+        Picture::File(path) => py.detach(|| Photograph::read(&path)).map_err(value_error)?,
         Picture::Pixels(pixels) => {
             let shape = [1, 0].map(|axis| pixels.shape()[axis]);
             let colours = pixels.as_slice().map_err(value_error)?.as_chunks::<4>().0;

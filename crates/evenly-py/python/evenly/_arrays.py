@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 
-def rows(data: object, name: str = "points", n_columns: int = 2) -> Floats:
+def rows(data: object, name: str = "points", n_columns: int = 2, *, may_be_empty: bool = False) -> Floats:
     """Return a contiguous array of finite float64 rows; the data are never changed.
 
     Arrays of any layout and real type, lists, and what has an array's protocol are taken; of shapely's points the coordinates, and of trimesh's
-    and pyvista's flat ones the first two columns of ``vertices`` or ``points``.
+    and pyvista's flat ones the first two columns of ``points`` or ``vertices``.
     """
     array = _as_array(data, name)
+    if may_be_empty and array.size == 0:
+        return np.empty((0, n_columns))
     if array.dtype == object or array.dtype.kind not in "fiub":
         raise ValueError(f"{name} must be an array of numbers of shape (n, {n_columns}), not of type {array.dtype}")
     if array.ndim == 2 and array.shape[1] == n_columns + 1 and _is_flat_model(data):
@@ -35,11 +37,6 @@ def rows(data: object, name: str = "points", n_columns: int = 2) -> Floats:
     return numbers
 
 
-def none() -> Floats:
-    """Return an array of no points."""
-    return np.empty((0, 2))
-
-
 def pixels(data: object, name: str = "density") -> NDArray[np.float32]:
     """Return a picture of densities, rows from the top."""
     array = np.asarray(data)
@@ -52,6 +49,24 @@ def pixels(data: object, name: str = "density") -> NDArray[np.float32]:
     return numbers
 
 
+def converted(array: NDArray[Any], dtype: Any, copy: bool | None) -> NDArray[Any]:
+    """Return an array as ``__array__`` must: copied where it has to be, or always, or never."""
+    as_wanted = np.asarray(array, dtype=dtype)
+    if copy is False and as_wanted.dtype != array.dtype:
+        raise ValueError(f"an array of {as_wanted.dtype} takes a copy")
+    return as_wanted.copy() if copy else as_wanted
+
+
+class Frozen:
+    """What has arrays that nobody can write to, not in copies of it either."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                frozen(value)
+        self.__dict__.update(state)
+
+
 def frozen(array: NDArray[Any]) -> NDArray[Any]:
     """Return the array, which nobody can write to any more."""
     array.setflags(write=False)
@@ -59,13 +74,17 @@ def frozen(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def _as_array(data: object, name: str) -> NDArray[Any]:
+    if np.ma.isMaskedArray(data) and np.ma.is_masked(data):
+        raise ValueError(f"{name} must have no masked values")
+    if hasattr(data, "triangles") and hasattr(data, "tags"):
+        raise ValueError(f"{name} must be points; a mesh has them as its vertices")
     if not hasattr(data, "__array__"):
         if hasattr(data, "__geo_interface__"):
             shape = cast("dict[str, Any]", data.__geo_interface__)
             if shape.get("type") not in ("MultiPoint", "LineString"):
                 raise ValueError(f"{name} must be points, not a {shape.get('type')}")
             data = list(shape["coordinates"])
-        for attribute in ("vertices", "points"):
+        for attribute in ("points", "vertices"):
             if hasattr(data, attribute):
                 return np.asarray(getattr(data, attribute))
     try:

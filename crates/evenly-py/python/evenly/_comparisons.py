@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from evenly._jobs import Interrupted
 from evenly._measures import Measures, measure
 from evenly._points import Points, generate, optimize
 from evenly._seeds import Seed, number
@@ -98,6 +99,8 @@ def compare(
     ------
     ValueError
         As the methods.
+    Interrupted
+        Where Ctrl-C ends it; ``partial`` has the runs that were done.
 
     Examples
     --------
@@ -109,17 +112,20 @@ def compare(
     if runs < 1:
         raise ValueError(f"runs is {runs}; it must be 1 or more")
     first = number(seed)
-    found = []
+    found: list[Run] = []
     where: dict[str, Any] = {"space": space, "size": size, "origin": origin, "threads": threads}
     for method in methods:
-        for chance in range(first, first + runs):
-            chance %= 2**64
-            begin = time.perf_counter()
-            made: Points
-            if isinstance(points, (int, np.integer)):
-                made = generate(int(points), method=cast(Any, method), seed=chance, **where)
-            else:
-                made = optimize(points, method=cast(Any, method), seed=chance, **where)
-            seconds = time.perf_counter() - begin
-            found.append(Run(method, chance, seconds, measure(made, threads=threads)))
+        for k in range(runs):
+            chance = (first + k) % 2**64
+            try:
+                begin = time.perf_counter()
+                made: Points
+                if isinstance(points, (int, np.integer)):
+                    made = generate(int(points), method=cast(Any, method), seed=chance, **where)
+                else:
+                    made = optimize(points, method=cast(Any, method), seed=chance, **where)
+                seconds = time.perf_counter() - begin
+                found.append(Run(method, chance, seconds, measure(made, threads=threads)))
+            except Interrupted:
+                raise Interrupted(lambda: Comparison(tuple(found))) from None
     return Comparison(tuple(found))

@@ -3,15 +3,15 @@
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
 
 from evenly import _evenly
-from evenly._arrays import Floats, frozen, rows
+from evenly._arrays import converted, Floats, frozen, Frozen, rows
 from evenly._densities import Density, density_of
-from evenly._jobs import run
+from evenly._jobs import run, threads_of
 from evenly._spaces import Pair, Space, native, space_of
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ class Measures:
     """Largest angle."""
     obtuse_fraction: float
     """Share of triangles with an angle above 90 degrees."""
-    valence: Mapping[int, int]
+    valence: Mapping[int, int] = field(hash=False)
     """How many points have each number of neighbours."""
     density_error: float | None = None
     """Where a density is wanted, how far the number of points in cells of equal mass is from what it should be."""
@@ -85,7 +85,7 @@ class Measures:
 
 
 @dataclass(frozen=True, eq=False)
-class PowerSpectrum:
+class PowerSpectrum(Frozen):
     """What `power_spectrum` finds; 1 is the power of white noise."""
 
     power: Floats
@@ -100,11 +100,11 @@ class PowerSpectrum:
     """How much the power differs along each ring, in decibels."""
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Floats:
-        return np.array(self.power, dtype=dtype, copy=copy)
+        return converted(self.power, dtype, copy)
 
 
 @dataclass(frozen=True, eq=False)
-class RadialPower:
+class RadialPower(Frozen):
     """What `radial_power` finds."""
 
     frequencies: Floats
@@ -117,11 +117,11 @@ class RadialPower:
     """How strongly the power swings beyond."""
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Floats:
-        return np.array(self.power, dtype=dtype, copy=copy)
+        return converted(self.power, dtype, copy)
 
 
 @dataclass(frozen=True, eq=False)
-class PairCorrelation:
+class PairCorrelation(Frozen):
     """What `pair_correlation` finds."""
 
     distances: Floats
@@ -130,7 +130,7 @@ class PairCorrelation:
     """How many pairs there are at each distance, relative to white noise."""
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Floats:
-        return np.array(self.correlation, dtype=dtype, copy=copy)
+        return converted(self.correlation, dtype, copy)
 
 
 def measure(
@@ -166,6 +166,8 @@ def measure(
     ------
     ValueError
         For points that cannot be measured; the message names the row.
+    Interrupted
+        At Ctrl-C; ``partial`` waits for the measures.
 
     Examples
     --------
@@ -177,7 +179,7 @@ def measure(
     """
     where = _space(points, space, size, origin)
     wanted = density_of(density, where)
-    return run(lambda: _evenly.measure(rows(points), native(where), wanted, threads), _measures)
+    return run(lambda: _evenly.measure(rows(points), native(where), wanted, threads_of(threads)), _measures)
 
 
 def power_spectrum(
@@ -229,7 +231,7 @@ def power_spectrum(
         power, (width, height), step, frequencies, means, anisotropy = answer
         return PowerSpectrum(frozen(power.reshape(height, width)), (step[0], step[1]), frozen(frequencies), frozen(means), frozen(anisotropy))
 
-    return run(lambda: _evenly.power_spectrum(sets, native(where), max_frequency, threads), build)
+    return run(lambda: _evenly.power_spectrum(sets, native(where), float(max_frequency), threads_of(threads)), build)
 
 
 def radial_power(
@@ -269,7 +271,7 @@ def radial_power(
         frequencies, power, _, _, effective_nyquist, oscillation = answer
         return RadialPower(frozen(frequencies), frozen(power), effective_nyquist, oscillation)
 
-    return run(lambda: _evenly.radial_spectrum(sets, native(where), threads), build)
+    return run(lambda: _evenly.radial_spectrum(sets, native(where), threads_of(threads)), build)
 
 
 def pair_correlation(
@@ -309,7 +311,7 @@ def pair_correlation(
     def build(answer: tuple[Floats, Floats, Floats, Floats, float, float]) -> PairCorrelation:
         return PairCorrelation(frozen(answer[2]), frozen(answer[3]))
 
-    return run(lambda: _evenly.radial_spectrum(sets, native(where), threads), build)
+    return run(lambda: _evenly.radial_spectrum(sets, native(where), threads_of(threads)), build)
 
 
 def _space(points: object, space: object, size: Pair | None, origin: Pair | None) -> Space:
@@ -319,6 +321,9 @@ def _space(points: object, space: object, size: Pair | None, origin: Pair | None
 def _sets(points: Any, space: object, size: Pair | None, origin: Pair | None) -> tuple[list[Floats], Space]:
     is_several = isinstance(points, (list, tuple)) and len(points) > 0 and np.ndim(points[0]) == 2
     sets = list(points) if is_several else [points]
+    spaces = {each.space for each in sets if isinstance(each, _KnowsSpace)}
+    if space is None and len(spaces) > 1:
+        raise ValueError("the sets have different spaces")
     return [rows(each) for each in sets], _space(sets[0], space, size, origin)
 
 
@@ -329,5 +334,5 @@ def _measures(text: str) -> Measures:
         if value is None:
             found[name] = math.inf if name in ("beta", "min_distance") else math.nan
     found["valence"] = {int(k): count for k, count in found["valence"].items()}
-    known = {field.name for field in fields(Measures)}
+    known = {each.name for each in fields(Measures)}
     return Measures(**{name: value for name, value in found.items() if name in known})

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenly import _evenly
-from evenly._arrays import Floats, frozen, none, rows
+from evenly._arrays import Floats, frozen, Frozen, rows
 from evenly._densities import Density, density_of
-from evenly._jobs import Callback, run, told, words
+from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._seeds import Seed, number
 from evenly._spaces import Polygon, native
 
@@ -43,7 +43,7 @@ class MeshQuality:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Mesh:
+class Mesh(Frozen):
     """Triangles that cover a polygon."""
 
     vertices: Floats
@@ -82,7 +82,7 @@ class Mesh:
         return self.svg() if len(self.triangles) <= _MANY else None
 
     def _repr_png_(self) -> bytes | None:
-        return _evenly.rendered(self.svg()) if len(self.triangles) > _MANY else None
+        return run(lambda: _evenly.rendered(self.svg()), bytes) if len(self.triangles) > _MANY else None
 
 
 def mesh(
@@ -100,7 +100,7 @@ def mesh(
     min_angle: float | None = None,
     no_obtuse: bool = False,
     fixed: "ArrayLike | object | None" = None,
-    lines: "Sequence[ArrayLike | object]" = (),
+    lines: "Sequence[ArrayLike | object] | None" = None,
     threads: int | None = None,
     callback: Callback | None = None,
 ) -> Mesh:
@@ -134,7 +134,7 @@ def mesh(
         No triangle shall be obtuse.
     fixed : array_like of shape (k, 2), optional
         Points that become vertices.
-    lines : sequence of array_like of shape (k, 2)
+    lines : sequence of array_like of shape (k, 2), optional
         Lines inside that become edges.
     threads, callback
         As in `generate`.
@@ -163,7 +163,7 @@ def mesh(
     chance = number(seed)
     options = words(
         {
-            "spacing": None if spacing is None else float(spacing),
+            "spacing": spacing,
             "n_triangles": n_triangles,
             "seed": chance,
             "method": method,
@@ -174,9 +174,9 @@ def mesh(
             "no_obtuse": no_obtuse,
         }
     )
-    held = none() if fixed is None else rows(fixed, "fixed")
-    ways = [rows(line, f"line {k}") for k, line in enumerate(lines)]
-    lengths = None if sizes is None else rows(sizes, "sizes", 3)
+    held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
+    ways = [rows(line, f"line {k}") for k, line in enumerate(lines or ())]
+    lengths = None if sizes is None else rows(sizes, "sizes", 3, may_be_empty=True)
     wanted = density_of(density, shape)
 
     def build(answer: tuple[Floats, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str]) -> Mesh:
@@ -196,5 +196,5 @@ def mesh(
         )
 
     return run(
-        lambda: _evenly.mesh(native(shape), options, held, ways, lengths, wanted, threads, told(callback)), build
+        lambda: _evenly.mesh(native(shape), options, held, ways, lengths, wanted, threads_of(threads), told(callback)), build
     )

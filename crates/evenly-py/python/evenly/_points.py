@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenly import _evenly
-from evenly._arrays import Floats, frozen, none, rows
+from evenly._arrays import converted, Floats, frozen, Frozen, rows
 from evenly._densities import Density, density_of
-from evenly._jobs import Callback, run, told, words
+from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._measures import Measures, measure
 from evenly._seeds import Seed, number
-from evenly._spaces import Pair, Space, native, space_of
+from evenly._spaces import Pair, Polygon, Space, native, space_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -28,11 +28,12 @@ Target: TypeAlias = "float | Literal['off'] | None"
 """A number, 'off', or None for what the method has."""
 
 _MANY = 5000
+_MOST = 40_000_000
 _SPECTRAL = 16
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Points:
+class Points(Frozen):
     """A set of points, as `generate` and `optimize` return it; numpy takes it as an array of shape (n, 2)."""
 
     positions: Floats
@@ -55,7 +56,7 @@ class Points:
     """All that the run has counted."""
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.positions, dtype=dtype, copy=copy)
+        return converted(self.positions, dtype, copy)
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -74,17 +75,16 @@ class Points:
 
     def svg(self, *draw: str) -> str:
         """Draw the points, or what else the command line's ``--draw`` knows, as SVG."""
-        return _evenly.figure(rows(self.positions), native(self.space), None, list(draw) or ["points"])
+        shown = list(draw) or ["points"]
+        return run(lambda: _evenly.figure(rows(self.positions), native(self.space), None, shown), str)
 
     def _repr_svg_(self) -> str | None:
         return self.svg(*self._shown()) if len(self) <= _MANY else None
 
     def _repr_png_(self) -> bytes | None:
-        return _evenly.rendered(self.svg(*self._shown())) if len(self) > _MANY else None
+        return run(lambda: _evenly.rendered(self.svg(*self._shown())), bytes) if len(self) > _MANY else None
 
     def _shown(self) -> list[str]:
-        from evenly._spaces import Polygon
-
         has_spectrum = len(self) >= _SPECTRAL and not isinstance(self.space, Polygon)
         return ["points", "spectrum"] if has_spectrum else ["points"]
 
@@ -158,7 +158,7 @@ def generate(
     threads : int, optional
         All cores by default; the result does not depend on it.
     callback : callable, optional
-        Called with the iteration and a `Progress` after each; False stops the run.
+        Called with the iteration and a `Progress` after each of an optimiser's; False stops the run.
 
     Returns
     -------
@@ -188,7 +188,7 @@ def generate(
             "method": method,
             "start": start,
             "seed": chance,
-            "no_warp": not warp,
+            "no_warp": _is_unwarped(warp),
             "iterations": iterations,
             "preset": preset,
             "min_distance": min_distance,
@@ -207,11 +207,11 @@ def generate(
             "tries": tries,
         }
     )
-    held = none() if fixed is None else rows(fixed, "fixed")
+    held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     wanted = density_of(density, where)
     count = None if n is None else _count(n)
     return run(
-        lambda: _evenly.generate(count, held, native(where), wanted, options, threads, told(callback)),
+        lambda: _evenly.generate(count, held, native(where), wanted, options, threads_of(threads), told(callback)),
         lambda answer: _points(answer, where, method, chance),
     )
 
@@ -259,7 +259,7 @@ def optimize(
     Returns
     -------
     Points
-        As many points, in the same order.
+        As many points, in the same order; with `fixed` those first that stay, whether they came in or not.
 
     Raises
     ------
@@ -283,7 +283,7 @@ def optimize(
         {
             "method": method,
             "seed": chance,
-            "no_warp": not warp,
+            "no_warp": _is_unwarped(warp),
             "iterations": iterations,
             "preset": preset,
             "min_distance": min_distance,
@@ -299,19 +299,25 @@ def optimize(
             "schedule": schedule,
         }
     )
-    held = none() if fixed is None else rows(fixed, "fixed")
+    held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     wanted = density_of(density, where)
     return run(
-        lambda: _evenly.optimize(positions, held, native(where), wanted, options, threads, told(callback)),
+        lambda: _evenly.optimize(positions, held, native(where), wanted, options, threads_of(threads), told(callback)),
         lambda answer: _points(answer, where, method, chance),
     )
+
+
+def _is_unwarped(warp: object) -> bool:
+    if not isinstance(warp, (bool, np.bool_)):
+        raise TypeError(f"warp must be True or False, not {warp!r}")
+    return not warp
 
 
 def _count(n: object) -> int:
     if isinstance(n, bool) or not isinstance(n, (int, np.integer)):
         raise TypeError(f"n must be a whole number, not {n!r}")
-    if n < 1:
-        raise ValueError(f"n is {n}; it must be 1 or more")
+    if not 1 <= n <= _MOST:
+        raise ValueError(f"n is {n}; it must be from 1 to {_MOST}")
     return int(n)
 
 
@@ -326,7 +332,7 @@ def _points(answer: tuple[Floats, str], space: Space, method: str, seed: int) ->
         seed=seed,
         outcome=counted.get("outcome", "made"),
         iterations=counted.get("iterations", 0),
-        notes=tuple(said["notes"]),
+        notes=(*(space.repairs if isinstance(space, Polygon) else ()), *said["notes"]),
         unmet=tuple(said["unmet"]),
         run=counted,
     )

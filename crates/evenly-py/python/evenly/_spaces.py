@@ -1,5 +1,6 @@
 """Domains: tori, rectangles and polygons."""
 
+import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,6 +23,9 @@ class Torus:
     origin: Pair = (0.0, 0.0)
     """The lower left corner."""
 
+    def __post_init__(self) -> None:
+        _settle(self)
+
 
 @dataclass(frozen=True)
 class Rectangle:
@@ -32,8 +36,16 @@ class Rectangle:
     origin: Pair = (0.0, 0.0)
     """The lower left corner."""
 
+    def __post_init__(self) -> None:
+        _settle(self)
 
-@dataclass(frozen=True, init=False)
+
+def _settle(box: "Torus | Rectangle") -> None:
+    for name in ("size", "origin"):
+        object.__setattr__(box, name, _pair(getattr(box, name), name, (0.0, 0.0)))
+
+
+@dataclass(frozen=True, init=False, repr=False)
 class Polygon:
     """A polygon with holes, in one part or several, cleaned and checked.
 
@@ -67,10 +79,17 @@ class Polygon:
 
     def __init__(self, shape: object) -> None:
         is_file = isinstance(shape, (str, os.PathLike))
-        rings, area, _, repairs = _evenly.read_polygon(os.fspath(cast("str", shape))) if is_file else _evenly.polygon(_parts(shape))
-        object.__setattr__(self, "rings", tuple(tuple(ring) for ring in rings))
+        if isinstance(shape, Polygon):
+            rings, area, repairs = [list(ring) for ring in shape.rings], shape.area, list(shape.repairs)
+        else:
+            rings, area, _, repairs = _evenly.read_polygon(os.fspath(cast("str", shape))) if is_file else _evenly.polygon(_parts(shape))
+        object.__setattr__(self, "rings", tuple(tuple((x, y) for x, y in ring) for ring in rings))
         object.__setattr__(self, "area", area)
         object.__setattr__(self, "repairs", tuple(repairs))
+
+    def __repr__(self) -> str:
+        corners = sum(map(len, self.rings))
+        return f"<polygon of {len(self.rings)} rings with {corners} corners, area {self.area:.6g}>"
 
 
 Space: TypeAlias = Torus | Rectangle | Polygon
@@ -84,7 +103,7 @@ def space_of(space: object, size: Pair | None, origin: Pair | None, default: Spa
         if size is not None or origin is not None:
             raise ValueError("size and origin are for space='torus' and 'rect'; this space has its own")
         return space
-    if space in ("torus", "rect", "rectangle"):
+    if isinstance(space, str) and space in ("torus", "rect", "rectangle"):
         kind = Torus if space == "torus" else Rectangle
         return kind(_pair(size, "size", (1.0, 1.0)), _pair(origin, "origin", (0.0, 0.0)))
     if size is not None or origin is not None:
@@ -98,8 +117,7 @@ def native(space: Space) -> Any:
     """Return what the native half takes."""
     if isinstance(space, Polygon):
         return [list(ring) for ring in space.rings]
-    kind = "torus" if isinstance(space, Torus) else "rectangle"
-    return (kind, _pair(space.origin, "origin", (0.0, 0.0)), _pair(space.size, "size", (1.0, 1.0)))
+    return ("torus" if isinstance(space, Torus) else "rectangle", space.origin, space.size)
 
 
 def frame(space: Space) -> tuple[Pair, Pair]:
@@ -118,6 +136,8 @@ def _pair(value: object, name: str, default: Pair) -> Pair:
         x, y = (float(number) for number in cast("Sequence[Any]", value))
     except (TypeError, ValueError):
         raise ValueError(f"{name} is {value!r}; it must be two numbers") from None
+    if not (math.isfinite(x) and math.isfinite(y)) or (name == "size" and min(x, y) <= 0):
+        raise ValueError(f"{name} is {value!r}; it must be finite" + (", and more than 0" if name == "size" else ""))
     return (x, y)
 
 
@@ -126,10 +146,11 @@ def _ring(ring: object) -> list[Pair]:
 
 
 def _parts(shape: object) -> list[list[list[Pair]]]:
-    if hasattr(shape, "__geo_interface__"):
-        return _geo_parts(cast("dict[str, Any]", shape.__geo_interface__))
-    if isinstance(shape, dict):
-        return _geo_parts(cast("dict[str, Any]", shape))
+    if hasattr(shape, "__geo_interface__") or isinstance(shape, dict):
+        try:
+            return _geo_parts(cast("dict[str, Any]", getattr(shape, "__geo_interface__", shape)))
+        except (AttributeError, KeyError, TypeError):
+            raise ValueError("a polygon must have a GeoJSON type and coordinates") from None
     if isinstance(shape, np.ndarray):
         return [[_ring(shape)]]
     try:

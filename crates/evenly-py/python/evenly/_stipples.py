@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenly import _evenly
-from evenly._arrays import Floats, frozen
-from evenly._jobs import Callback, run, told, words
+from evenly._arrays import converted, Floats, frozen, Frozen
+from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._seeds import Seed, number
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Layer:
+class Layer(Frozen):
     """The dots of one pen."""
 
     name: str
@@ -30,7 +30,7 @@ class Layer:
     """Of the dots, in pixels: as large as they may be without touching, or darkening the picture too much."""
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.positions, dtype=dtype, copy=copy)
+        return converted(self.positions, dtype, copy)
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -51,7 +51,9 @@ class Stippling:
     """The same seed makes the same dots."""
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.concatenate([layer.positions for layer in self.layers], dtype=dtype)
+        if copy is False:
+            raise ValueError("the dots of all layers together take a copy")
+        return converted(np.concatenate([layer.positions for layer in self.layers]), dtype, None)
 
     def __len__(self) -> int:
         return sum(map(len, self.layers))
@@ -148,9 +150,9 @@ def stipple(
             "iterations": iterations,
             "seed": chance,
             "invert": invert,
-            "contrast": float(contrast),
-            "gamma": float(gamma),
-            "floor": float(floor),
+            "contrast": contrast,
+            "gamma": gamma,
+            "floor": floor,
             "layers": layers,
             "sizes": sizes,
             "order": order,
@@ -168,7 +170,7 @@ def stipple(
         )
         return Stippling(tuple(made), size, chance)
 
-    return run(lambda: _evenly.stipple(source, int(n), options, threads, told(callback)), build)
+    return run(lambda: _evenly.stipple(source, int(n), options, threads_of(threads), told(callback)), build)
 
 
 def _colours(picture: "ArrayLike") -> NDArray[np.float32]:
@@ -182,8 +184,10 @@ def _colours(picture: "ArrayLike") -> NDArray[np.float32]:
     if not np.isfinite(tones).all():
         row = int(np.argmax(~np.isfinite(tones).reshape(len(tones), -1).all(axis=1)))
         raise ValueError(f"picture must be finite: row {row} is not")
+    if tones.min() < 0 or tones.max() > 1:
+        raise ValueError(f"picture must have whole numbers up to {whole}, or fractions from 0 to 1; it has {array.min()} to {array.max()}")
     if tones.ndim == 2:
         tones = tones[:, :, None]
     opacity = tones[:, :, 3:] if tones.shape[2] == 4 else np.ones((*tones.shape[:2], 1), dtype=np.float32)
     colours = np.broadcast_to(tones[:, :, :3], (*tones.shape[:2], 3))
-    return np.ascontiguousarray(np.clip(np.concatenate([colours, opacity], axis=2), 0, 1), dtype=np.float32)
+    return np.ascontiguousarray(np.concatenate([colours, opacity], axis=2))

@@ -9,6 +9,7 @@ from matplotlib.collections import LineCollection
 
 from evenly import _evenly
 from evenly._arrays import rows
+from evenly._jobs import run
 from evenly._measures import _sets, _space, power_spectrum, radial_power
 from evenly._meshes import Mesh
 from evenly._spaces import Pair, Polygon, frame, native
@@ -33,7 +34,7 @@ def points(
     where = _space(points, space, size, origin)
     corner, extent = frame(where)
     # As large as they may be without touching.
-    style = {"s": min(20.0, 2e4 / len(positions)), "color": "black", "linewidths": 0, **style}
+    style = {"s": min(20.0, 2e4 / len(positions)), "linewidths": 0, **_ink(style), **style}
     axes.scatter(positions[:, 0], positions[:, 1], **style)
     if isinstance(where, Polygon):
         rings = [np.asarray([*ring, ring[0]]) for ring in where.rings]
@@ -57,9 +58,9 @@ def triangulation(
         corners = points.vertices[points.triangles]
     else:
         where = _space(points, space, size, origin)
-        corners = _evenly.triangles(rows(points), native(where), None).reshape(-1, 3, 2)
+        corners = run(lambda: _evenly.triangles(rows(points), native(where), None), np.asarray).reshape(-1, 3, 2)
     closed = np.concatenate([corners, corners[:, :1]], axis=1)
-    style = {"colors": "0.3", "linewidths": 0.5, **style}
+    style = {"linewidths": 0.5, **({} if {"color", "colors"} & style.keys() else {"colors": "0.3"}), **style}
     axes.add_collection(LineCollection(list(closed), **style))
     axes.autoscale_view()
     axes.set_aspect("equal")
@@ -99,7 +100,7 @@ def radial(
     """Draw the radial mean of the power spectrum; `style` goes to ``Axes.plot``."""
     axes = _axes(ax)
     found = radial_power(points, space=space, size=size, origin=origin)
-    axes.plot(found.frequencies, found.power, **{"color": "black", **style})
+    axes.plot(found.frequencies, found.power, **{**_ink(style), **style})
     axes.axhline(1, color="0.7", linewidth=0.8)
     axes.set(xlabel="frequency / mean frequency", ylabel="radial mean power", xlim=(0, None), ylim=(0, None))
     return axes
@@ -114,6 +115,8 @@ def report(
 ) -> "np.ndarray[Any, np.dtype[np.object_]]":
     """Draw a page of points, triangulation, spectrum and radial mean; returns its four axes."""
     sets, where = _sets(points, space, size, origin)
+    if isinstance(where, Polygon):
+        raise ValueError("a polygon has no spectrum, so there is no report")
     _, grid = plt.subplots(2, 2, figsize=(10, 10), layout="constrained")
     axes = cast("np.ndarray[Any, np.dtype[np.object_]]", grid)
     _points_of(sets[0], axes[0, 0], where)
@@ -125,6 +128,10 @@ def report(
 
 def _points_of(positions: Any, ax: Axes, where: object) -> None:
     points(positions, ax=ax, space=where)
+
+
+def _ink(style: dict[str, Any]) -> dict[str, Any]:
+    return {} if {"c", "color"} & style.keys() else {"color": "black"}
 
 
 def _axes(ax: Axes | None) -> Axes:

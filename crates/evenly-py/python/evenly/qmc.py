@@ -20,12 +20,13 @@ class BlueNoise(qmc.QMCEngine):  # type: ignore[misc]
         The dimension: 2.
     method : str
         Any method of `evenly.generate` that makes exactly as many points as asked for.
-    seed : int, SeedSequence, Generator or None
-        Where chance comes from.
+    seed, rng : int, SeedSequence, Generator, RandomState or None
+        Where chance comes from; either name will do.
 
     Notes
     -----
-    Each call of ``random`` makes a set of its own: one call with n points is a better set than two with half as many.
+    Each call of ``random`` makes a set of its own: one call with n points is a better set than two with half as many, and ``fast_forward(n)``
+    goes on as after a call with n points.
 
     Examples
     --------
@@ -35,11 +36,17 @@ class BlueNoise(qmc.QMCEngine):  # type: ignore[misc]
     ((256, 2), True)
     """
 
-    def __init__(self, d: int = 2, *, method: str = "push-pull", seed: Any = None) -> None:
+    def __init__(self, d: int = 2, *, method: str = "push-pull", seed: Any = None, rng: Any = None) -> None:
         if d != 2:
             raise ValueError(f"d is {d}; blue noise is made in 2 dimensions")
-        super().__init__(d=d, seed=np.random.default_rng(seed))
+        if seed is not None and rng is not None:
+            raise ValueError("seed and rng are two names of one thing; give one")
+        chance = rng if seed is None else seed
+        if isinstance(chance, np.random.RandomState):
+            chance = chance.randint(0, 2**63, dtype=np.int64)
+        super().__init__(d=d, seed=np.random.default_rng(chance))
         self.method = method
+        generate(3, method=method)  # type: ignore[arg-type]
 
     def _random(self, n: int = 1, *, workers: int = 1) -> NDArray[np.float64]:
         if n == 0:

@@ -42,7 +42,7 @@ pub(super) fn settle(
         let State { points, corners, bonds } = state.in_order(domain);
         let Ok(mesh) = LiveMesh::bounded(domain, &points, bonds, spacing) else { break };
         report.triangulations += 1;
-        let mut mesh = mover.moved(mesh, round, run, report)?;
+        let Ok(mut mesh) = mover.moved(mesh, round, run, report) else { break };
         mesh.legalize();
         let triangulation = mesh.triangulation();
         let badness = badness(&triangulation, &aim);

@@ -30,6 +30,8 @@ pub struct Polygon {
     border: Vec<[u32; 2]>,
 }
 
+/// Clean rings stay as they are from the second time on, and where parts touch from the third.
+const MOST_CLEANINGS: usize = 4;
 /// Rings are cut anew so often where cuts, rounded, lead to new crossings.
 const MOST_CUTS: usize = 5;
 /// With more crossings than this nobody knows what was meant.
@@ -63,7 +65,7 @@ impl Polygon {
     /// ```
     pub fn new(parts: Vec<Vec<Vec<[f64; 2]>>>) -> Result<Self, Error> {
         let roles = parts.iter().flat_map(|part| (0..part.len()).map(|k| if k == 0 { Role::Outer } else { Role::Hole })).collect();
-        Self::of(parts.into_iter().flatten().collect(), roles)
+        Self::cleaned(parts.into_iter().flatten().collect(), roles)
     }
 
     /// What an odd number of the rings enclose, whichever way they run.
@@ -72,16 +74,30 @@ impl Polygon {
     /// As [`Self::new`], but for what is inside of what.
     pub fn from_rings(rings: Vec<Vec<[f64; 2]>>) -> Result<Self, Error> {
         let roles = vec![Role::Any; rings.len()];
-        Self::of(rings, roles)
+        Self::cleaned(rings, roles)
     }
 
-    fn of(given: Vec<Vec<[f64; 2]>>, roles: Vec<Role>) -> Result<Self, Error> {
-        let frame = frame(&given)?;
+    /// Cleans rings until they stay as they are: so a polygon is the same, to the bit, as that of its own rings.
+    fn cleaned(given: Vec<Vec<[f64; 2]>>, roles: Vec<Role>) -> Result<Self, Error> {
+        let mut polygon = Self::of(&given, &roles)?;
+        let mut before = given;
+        for _ in 0..MOST_CLEANINGS {
+            if polygon.rings == before {
+                break;
+            }
+            before = polygon.rings;
+            polygon = Self { repairs: polygon.repairs, ..Self::of(&before, &vec![Role::Any; before.len()])? };
+        }
+        Ok(polygon)
+    }
+
+    fn of(given: &[Vec<[f64; 2]>], roles: &[Role]) -> Result<Self, Error> {
+        let frame = frame(given)?;
         let domain = Space::from(frame).domain();
         let mut repairs = Vec::new();
 
         // Clean rings, and their corners by number.
-        let clean = clean(&given, &domain, &mut repairs);
+        let clean = clean(given, &domain, &mut repairs);
         let (mut corners, mut inputs, mut numbers) = (Vec::new(), Vec::new(), HashMap::new());
         let mut rings: Vec<(Role, Vec<u32>)> = clean
             .into_iter()
