@@ -1,7 +1,6 @@
 """What is promised of the package as a whole."""
 
 import doctest
-import importlib
 import inspect
 import pkgutil
 import subprocess
@@ -15,7 +14,8 @@ MODULES = [name for _, name, _ in pkgutil.iter_modules(evenly.__path__, "evenly.
 
 @pytest.mark.parametrize("name", ["evenly", *MODULES])
 def test_examples_are_true(name):
-    found = doctest.testmod(importlib.import_module(name), optionflags=doctest.ELLIPSIS)
+    # plot and qmc take more than the package itself.
+    found = doctest.testmod(pytest.importorskip(name))
     assert found.failed == 0
 
 

@@ -190,3 +190,17 @@ def test_copies_are_frozen_too():
 def test_falsy_answers_of_callbacks_go_on():
     assert evenly.generate(300, method="lloyd", callback=lambda *_: 0).outcome == "iterations_done"
     assert evenly.generate(300, method="lloyd", callback=lambda *_: np.False_).outcome == "cancelled"
+
+
+def test_points_bring_their_space_and_density_along():
+    points = evenly.generate(300, method="push-pull", space="rect", size=(2, 1), density=lambda x, y: 0.2 + x)
+    assert points.measure() == evenly.measure(points, density=points.density) and points.measure().beta < 1
+    assert evenly.optimize(points, method="lloyd").positions[:, 0].mean() > 1.15
+    assert evenly.generate(310, space=None, fixed=points).space == points.space
+
+
+def test_modules_that_take_more_are_imported_when_asked_for():
+    pytest.importorskip("matplotlib")
+    assert evenly.plot.points.__doc__ and evenly.qmc.BlueNoise
+    with pytest.raises(AttributeError, match="nonsense"):
+        _ = evenly.nonsense

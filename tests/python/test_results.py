@@ -73,7 +73,8 @@ def test_meshes_follow_sizes_densities_and_methods():
 @pytest.mark.parametrize(
     ("message", "arguments"),
     [
-        ("spacing", {}),
+        ("either spacing or n_triangles", {}),
+        ("either spacing or n_triangles", {"spacing": 0.1, "n_triangles": 100}),
         ("spacing is -1", {"spacing": -1.0}),
         ("min_angle is 50", {"spacing": 0.1, "min_angle": 50.0}),
         ("no_obtuse needs method push-pull", {"spacing": 0.1, "no_obtuse": True, "method": "lloyd"}),

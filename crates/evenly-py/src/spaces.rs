@@ -50,7 +50,8 @@ pub fn density(py: Python, density: Option<DensityArg>) -> PyResult<Density> {
         Some(DensityArg::Pixels(pixels)) => {
             let [height, width] = [0, 1].map(|axis| pixels.shape()[axis]);
             let values = pixels.as_slice().map_err(value_error)?.to_vec();
-            py.detach(|| Density::image(width, height, &values)).map_err(value_error)
+            py.detach(|| Density::image(width, height, &values))
+                .map_err(|error| value_error(error.to_string().replace("values is", "density is")))
         }
     }
 }
@@ -59,11 +60,14 @@ pub fn density(py: Python, density: Option<DensityArg>) -> PyResult<Density> {
 pub fn point_set(py: Python, positions: &Rows, space: SpaceArg, wanted: Option<DensityArg>, n_fixed: usize) -> PyResult<PointSet> {
     let positions = rows(positions)?;
     let points = py.detach(|| PointSet::new(space.space()?, positions).map_err(value_error))?;
-    points.with_density(&density(py, wanted)?).with_fixed(n_fixed).map_err(value_error)
+    points
+        .with_density(&density(py, wanted)?)
+        .with_fixed(n_fixed)
+        .map_err(|error| value_error(error.to_string().replace("n_fixed", "fixed")))
 }
 
-/// A polygon's clean rings, its area, its frame and what was repaired.
-type Clean = (Vec<Vec<[f64; 2]>>, f64, ([f64; 2], [f64; 2]), Vec<String>);
+/// A polygon's clean rings, its area and what was repaired.
+type Clean = (Rings, f64, Vec<String>);
 
 #[pyfunction]
 pub fn polygon(py: Python, parts: Parts) -> PyResult<Clean> {
@@ -77,6 +81,5 @@ pub fn read_polygon(py: Python, path: PathBuf) -> PyResult<Clean> {
 }
 
 fn clean(polygon: &Polygon) -> Clean {
-    let frame = Space::from(*polygon.frame());
-    (polygon.rings().to_vec(), polygon.area(), (frame.origin(), frame.size()), polygon.repairs().to_vec())
+    (polygon.rings().to_vec(), polygon.area(), polygon.repairs().to_vec())
 }

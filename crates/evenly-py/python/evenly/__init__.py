@@ -6,6 +6,9 @@
 True
 """
 
+import importlib as _importlib
+from types import ModuleType as _ModuleType
+
 from evenly import _evenly
 from evenly._comparisons import Comparison, Run, compare
 from evenly._jobs import Interrupted, Progress
@@ -25,6 +28,14 @@ from evenly._spaces import Polygon, Rectangle, Torus
 from evenly._stipples import Layer, Stippling, stipple
 
 __version__ = _evenly.__version__
+
+
+def __getattr__(name: str) -> _ModuleType:
+    # What takes more than numpy is imported when it is asked for.
+    if name in ("plot", "qmc"):
+        return _importlib.import_module(f"evenly.{name}")
+    raise AttributeError(f"module 'evenly' has no attribute {name!r}")
+
 
 __all__ = [
     "Comparison",

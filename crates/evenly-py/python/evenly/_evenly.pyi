@@ -11,9 +11,7 @@ _Rings: TypeAlias = Sequence[Sequence[tuple[float, float]]]
 _Space: TypeAlias = _Box | _Rings
 _Density: TypeAlias = NDArray[np.float32] | str | None
 _Callback: TypeAlias = Callable[[int, float | None, float | None, float], bool | None] | None
-_Clean: TypeAlias = tuple[
-    list[list[tuple[float, float]]], float, tuple[tuple[float, float], tuple[float, float]], list[str]
-]
+_Clean: TypeAlias = tuple[list[list[tuple[float, float]]], float, list[str]]
 _Layer: TypeAlias = tuple[str, str, _Rows, NDArray[np.float64], float]
 
 __all__ = [

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 class _KnowsSpace(Protocol):
     @property
     def space(self) -> Space: ...
+    @property
+    def density(self) -> Any: ...
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ class Measures:
     """In a polygon, ``capacity_max_deviation`` of cells clear of the border."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PowerSpectrum(Frozen):
     """What `power_spectrum` finds; 1 is the power of white noise."""
 
@@ -99,11 +101,14 @@ class PowerSpectrum(Frozen):
     anisotropy_db: Floats
     """How much the power differs along each ring, in decibels."""
 
+    def __repr__(self) -> str:
+        return f"<power spectrum of {self.power.shape[1]} x {self.power.shape[0]} frequencies>"
+
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Floats:
         return converted(self.power, dtype, copy)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class RadialPower(Frozen):
     """What `radial_power` finds."""
 
@@ -116,11 +121,14 @@ class RadialPower(Frozen):
     oscillation: float
     """How strongly the power swings beyond."""
 
+    def __repr__(self) -> str:
+        return f"<radial mean power at {len(self.power)} frequencies, effective Nyquist {self.effective_nyquist:.3f}, oscillation {self.oscillation:.3f}>"
+
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Floats:
         return converted(self.power, dtype, copy)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PairCorrelation(Frozen):
     """What `pair_correlation` finds."""
 
@@ -128,6 +136,9 @@ class PairCorrelation(Frozen):
     """In mean spacings ``sqrt(A / n)``."""
     correlation: Floats
     """How many pairs there are at each distance, relative to white noise."""
+
+    def __repr__(self) -> str:
+        return f"<pair correlation at {len(self.distances)} distances>"
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Floats:
         return converted(self.correlation, dtype, copy)
@@ -147,7 +158,7 @@ def measure(
     Parameters
     ----------
     points : array_like of shape (n, 2)
-        Three points or more, not all on one line; a `Points` brings its space along.
+        Three points or more, not all on one line; a `Points` brings its space and its density along.
     space : {'torus', 'rect'}, polygon or file, optional
         The domain; 'torus' by default. See `generate`.
     size, origin : pair of float, optional
@@ -178,7 +189,7 @@ def measure(
     (True, 0.0)
     """
     where = _space(points, space, size, origin)
-    wanted = density_of(density, where)
+    wanted = density_of(points.density if density is None and isinstance(points, _KnowsSpace) else density, where)
     return run(lambda: _evenly.measure(rows(points), native(where), wanted, threads_of(threads)), _measures)
 
 
@@ -258,6 +269,10 @@ def radial_power(
     ------
     ValueError
         For too few points, or sets that have nothing in common.
+
+    Notes
+    -----
+    It comes of the pairs up to a largest distance, which blurs it: where there is little power, near the frequency 0, take ``power_spectrum(...).ring_power``.
 
     Examples
     --------

@@ -28,18 +28,31 @@ class MeshQuality:
     """What a mesh is worth; angles in degrees, lengths and areas in input units."""
 
     n_vertices: int
+    """How many vertices there are."""
     n_triangles: int
+    """How many triangles."""
     n_border_edges: int
+    """How many edges on the border."""
     min_angle_deg: float
+    """Smallest angle."""
     max_angle_deg: float
+    """Largest angle."""
     mean_min_angle_deg: float
+    """Mean of the triangles' smallest angles."""
     obtuse_triangles: int
+    """Triangles with an angle above 90 degrees."""
     radius_edge: float
+    """Largest ratio of a triangle's circumradius to its shortest side."""
     beta: float
+    """Largest circumradius over shortest edge, of all triangles."""
     triangle_quality: float
+    """Mean of twice the inradius over the circumradius; 1 for equilateral triangles."""
     min_edge: float
+    """Shortest edge."""
     max_edge: float
+    """Longest edge."""
     area: float
+    """The area of all triangles."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -125,7 +138,7 @@ def mesh(
     max_spacing : float, optional
         The longest edges wanted, where they grow.
     sizes : array_like of shape (k, 3), optional
-        Wanted lengths of edges at points, as x, y and length.
+        Wanted lengths of edges at points, as x, y and length, where they are to be shorter than `spacing`; they grow from there by `grade`, or 0.25, a length.
     density : optional
         How many vertices are wanted where, in the polygon's frame; see `generate`.
     min_angle : float, optional
@@ -135,7 +148,7 @@ def mesh(
     fixed : array_like of shape (k, 2), optional
         Points that become vertices.
     lines : sequence of array_like of shape (k, 2), optional
-        Lines inside that become edges.
+        Lines inside that become edges; they are no slits: triangles on both sides share their vertices.
     threads, callback
         As in `generate`.
 
@@ -159,6 +172,8 @@ def mesh(
     >>> mesh.quality.obtuse_triangles, mesh.quality.min_angle_deg > 40
     (0, True)
     """
+    if (spacing is None) == (n_triangles is None):
+        raise ValueError("give either spacing or n_triangles")
     shape = polygon if isinstance(polygon, Polygon) else Polygon(polygon)
     chance = number(seed)
     options = words(
@@ -191,7 +206,7 @@ def mesh(
             quality=MeshQuality(**{each.name: quality[each.name] for each in fields(MeshQuality)}),
             seed=chance,
             outcome=said["run"]["outcome"],
-            notes=tuple(said["notes"]),
+            notes=(*shape.repairs, *said["notes"]),
             unmet=tuple(said["unmet"]),
         )
 

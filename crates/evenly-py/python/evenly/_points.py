@@ -52,6 +52,8 @@ class Points(Frozen):
     """What is good to know."""
     unmet: tuple[str, ...] = ()
     """For each target that was missed, in a sentence."""
+    density: NDArray[np.float32] | str | None = None
+    """The density that they follow: pixels, rows from the top, or a picture's file."""
     run: dict[str, Any] = field(default_factory=dict)
     """All that the run has counted."""
 
@@ -65,18 +67,18 @@ class Points(Frozen):
         return self.positions[index]
 
     def __repr__(self) -> str:
-        missed = f", {len(self.unmet)} targets missed" if self.unmet else ""
+        missed = f", {len(self.unmet)} of its targets missed" if self.unmet else ""
         kind = type(self.space).__name__.lower()
         return f"<{len(self)} points by {self.method} in a {kind}, seed {self.seed}, {self.outcome.replace('_', ' ')}{missed}>"
 
     def measure(self) -> Measures:
-        """Measure the points; see `evenly.measure`."""
+        """Measure the points, in the density that they follow; see `evenly.measure`."""
         return measure(self)
 
     def svg(self, *draw: str) -> str:
         """Draw the points, or what else the command line's ``--draw`` knows, as SVG."""
         shown = list(draw) or ["points"]
-        return run(lambda: _evenly.figure(rows(self.positions), native(self.space), None, shown), str)
+        return run(lambda: _evenly.figure(rows(self.positions), native(self.space), self.density, shown), str)
 
     def _repr_svg_(self) -> str | None:
         return self.svg(*self._shown()) if len(self) <= _MANY else None
@@ -181,7 +183,7 @@ def generate(
     >>> bool(evenly.generate(300, method="lloyd", density=lambda x, y: x).positions[:, 0].mean() > 0.6)
     True
     """
-    where = space_of(space, size, origin)
+    where = space_of(space, size, origin, fixed.space if isinstance(fixed, Points) else None)
     chance = number(seed)
     options = words(
         {
@@ -212,7 +214,7 @@ def generate(
     count = None if n is None else _count(n)
     return run(
         lambda: _evenly.generate(count, held, native(where), wanted, options, threads_of(threads), told(callback)),
-        lambda answer: _points(answer, where, method, chance),
+        lambda answer: _points(answer, where, method, chance, wanted),
     )
 
 
@@ -248,7 +250,7 @@ def optimize(
     Parameters
     ----------
     points : array_like of shape (n, 2)
-        A `Points` brings its space along.
+        A `Points` brings its space and its density along.
     method : str
         An optimiser, see `generate`; or 'warp', which only takes long density waves out.
     fixed : array_like of shape (k, 2), optional
@@ -300,10 +302,10 @@ def optimize(
         }
     )
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
-    wanted = density_of(density, where)
+    wanted = density_of(points.density if density is None and isinstance(points, Points) else density, where)
     return run(
         lambda: _evenly.optimize(positions, held, native(where), wanted, options, threads_of(threads), told(callback)),
-        lambda answer: _points(answer, where, method, chance),
+        lambda answer: _points(answer, where, method, chance, wanted),
     )
 
 
@@ -321,7 +323,9 @@ def _count(n: object) -> int:
     return int(n)
 
 
-def _points(answer: tuple[Floats, str], space: Space, method: str, seed: int) -> Points:
+def _points(
+    answer: tuple[Floats, str], space: Space, method: str, seed: int, density: NDArray[np.float32] | str | None
+) -> Points:
     positions, text = answer
     said = json.loads(text)
     counted = said["run"] or {}
@@ -334,5 +338,6 @@ def _points(answer: tuple[Floats, str], space: Space, method: str, seed: int) ->
         iterations=counted.get("iterations", 0),
         notes=(*(space.repairs if isinstance(space, Polygon) else ()), *said["notes"]),
         unmet=tuple(said["unmet"]),
+        density=density if density is None or isinstance(density, str) else frozen(density.copy()),
         run=counted,
     )

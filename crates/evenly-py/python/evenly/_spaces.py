@@ -82,7 +82,7 @@ class Polygon:
         if isinstance(shape, Polygon):
             rings, area, repairs = [list(ring) for ring in shape.rings], shape.area, list(shape.repairs)
         else:
-            rings, area, _, repairs = _evenly.read_polygon(os.fspath(cast("str", shape))) if is_file else _evenly.polygon(_parts(shape))
+            rings, area, repairs = _evenly.read_polygon(os.fspath(cast("str", shape))) if is_file else _evenly.polygon(_parts(shape))
         object.__setattr__(self, "rings", tuple(tuple((x, y) for x, y in ring) for ring in rings))
         object.__setattr__(self, "area", area)
         object.__setattr__(self, "repairs", tuple(repairs))
@@ -109,7 +109,7 @@ def space_of(space: object, size: Pair | None, origin: Pair | None, default: Spa
     if size is not None or origin is not None:
         raise ValueError("size and origin are for space='torus' and 'rect'; a polygon has its own")
     if isinstance(space, str) and not os.path.exists(space):
-        raise ValueError(f"space is {space!r}; it must be 'torus', 'rect', a polygon or a polygon's file")
+        raise ValueError(f"space is {space!r}; it must be 'torus', 'rect', a polygon or a polygon's file, and there is no file of that name")
     return Polygon(space)
 
 
