@@ -162,6 +162,20 @@ fn no_triangle_is_obtuse_where_none_shall_be() {
 }
 
 #[test]
+fn no_triangle_is_obtuse_along_finely_divided_holes() {
+    for n_corners in [64, 128, 300] {
+        let hole = circle(n_corners)[0].iter().map(|[x, y]| [0.4 * x, 0.4 * y]).rev().collect();
+        let polygon = polygon(vec![rectangle([-1.0, -1.0], [2.0, 2.0]), hole]);
+        for seed in 0..2 {
+            let params = MeshParams { seed, is_non_obtuse: true, ..MeshParams::new(0.12) };
+            let mesh = meshed(&polygon, &params);
+            prove(&polygon, &mesh).unwrap();
+            assert_eq!(mesh_quality(&mesh).obtuse_triangles, 0, "{n_corners}");
+        }
+    }
+}
+
+#[test]
 fn detailed_borders_are_followed_with_good_angles() {
     for (rings, least) in [(circle(1000), 35.0), (comb(10, 0.4), 32.0), (passage(1e-3), 25.0), (slit(1e-9), 41.0)] {
         let polygon = polygon(rings);

@@ -49,6 +49,8 @@ use crate::space::{Domain, Space};
 const FLOOR: f64 = 1.0 / 512.0;
 /// The shortest lengths, in distances between neighbouring f64.
 const RESOLVED: f64 = 1e3;
+/// Where triangles stay obtuse that shall not be, the spacing is made to grow more slowly: by so much a length, one after the other.
+const SLOW_GROWTHS: [f64; 2] = [0.15, 0.09];
 /// The base of a cap is at most so many spacings long; caps are made smaller so often.
 const LONGEST_BASE: f64 = 1.3;
 const MOST_TRIES: usize = 8;
@@ -60,7 +62,7 @@ pub struct MeshParams<'a> {
     pub spacing: f64,
     /// The largest spacing inside, in input units; `None` for `spacing`, which edges on the border never exceed by much. More lets triangles grow away from it.
     pub largest: Option<f64>,
-    /// By how much the spacing may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones.
+    /// By how much the spacing may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones; where no triangle shall be obtuse, it may be made less.
     pub growth: f64,
     /// How points find their places.
     pub method: MeshMethod,
@@ -202,6 +204,27 @@ pub enum EdgeKind {
 /// ```
 pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Result<(Mesh, Report), Error> {
     params.validate()?;
+    let n_obtuse = |mesh: &Mesh| mesh_quality(mesh).obtuse_triangles;
+    let mut best = meshed(polygon, params, run)?;
+    // Along a finely divided border that bends inwards each corner takes three triangles, and where the spacing grows fast there are too few.
+    for growth in SLOW_GROWTHS.into_iter().filter(|&growth| params.is_non_obtuse && growth < params.growth) {
+        if best.1.outcome != Outcome::IterationLimit || n_obtuse(&best.0) == 0 {
+            break;
+        }
+        let Ok((slower, mut report)) = meshed(polygon, &MeshParams { growth, ..params.clone() }, run) else { break };
+        if report.outcome == Outcome::Cancelled {
+            break;
+        }
+        if n_obtuse(&slower) < n_obtuse(&best.0) {
+            report.notes.push(format!("so that fewer triangles are obtuse, the spacing grows by {growth} a length, not {}", params.growth));
+            best = (slower, report);
+        }
+    }
+    Ok(best)
+}
+
+/// Makes a mesh whose spacing grows as it says.
+fn meshed(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Result<(Mesh, Report), Error> {
     run.enter(Phase::Triangulate);
     let domain = polygon.domain();
     let spacing = params.spacing / domain.restore_length(1.0);
