@@ -114,10 +114,10 @@ def compare(
     first = number(seed)
     found: list[Run] = []
     where: dict[str, Any] = {"space": space, "size": size, "origin": origin, "threads": threads}
-    for method in methods:
-        for k in range(runs):
-            chance = (first + k) % 2**64
-            try:
+    try:
+        for method in methods:
+            for k in range(runs):
+                chance = (first + k) % 2**64
                 begin = time.perf_counter()
                 made: Points
                 if isinstance(points, (int, np.integer)):
@@ -126,6 +126,7 @@ def compare(
                     made = optimize(points, method=cast(Any, method), seed=chance, **where)
                 seconds = time.perf_counter() - begin
                 found.append(Run(method, chance, seconds, measure(made, threads=threads)))
-            except Interrupted:
-                raise Interrupted(lambda: Comparison(tuple(found))) from None
+    except KeyboardInterrupt:
+        # Between two calls as well as in one.
+        raise Interrupted(lambda: Comparison(tuple(found))) from None
     return Comparison(tuple(found))
