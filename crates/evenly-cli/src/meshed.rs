@@ -18,7 +18,6 @@ const FLAGS: [(&str, &str); 4] = [("spacing", "spacing"), ("growth", "grade"), (
 const ESTIMATES: usize = 4;
 
 /// What a mesh must keep or follow.
-#[derive(Default)]
 pub struct Given {
     /// Points that become vertices.
     pub fixed: Vec<[f64; 2]>,

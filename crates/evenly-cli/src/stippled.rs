@@ -61,9 +61,6 @@ pub fn stipple(
 ) -> anyhow::Result<Vec<Layer>> {
     let matches = Flags::command().try_get_matches_from(words).map_err(|error| crate::plain(&error))?;
     let Flags { method, iterations, seed, tone, drawing } = Flags::from_arg_matches(&matches).map_err(|error| crate::plain(&error))?;
-    if iterations.is_some() && !method.is_optimizer() {
-        anyhow::bail!("--iterations is for optimisers; {} is none", method.name());
-    }
     let tone = tone.tone()?;
     let space: Space = Rectangle::new([0.0, 0.0], photograph.size().map(|n| n as f64)).context("the picture")?.into();
     let params = DotsParams { method, iterations, sizes: drawing.sizes, order: drawing.order };

@@ -59,14 +59,16 @@ impl Desk {
 
 /// An interrupted job, which ends after the iteration at hand.
 #[pyclass(frozen)]
-pub struct Pending(Desk);
+pub struct Pending(Mutex<Option<Desk>>);
 
 #[pymethods]
 impl Pending {
-    /// Waits for the state reached; a second time there is none.
+    /// Waits for the state reached, which can be had once.
     fn result(&self, py: Python) -> PyResult<Py<PyAny>> {
+        let desk = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let desk = desk.ok_or_else(|| PyRuntimeError::new_err("the state reached has been handed over"))?;
         loop {
-            if let Some(done) = py.detach(|| self.0.take(LOOK)) {
+            if let Some(done) = py.detach(|| desk.take(LOOK)) {
                 return done.map_err(PyErr::from)?(py);
             }
             py.check_signals()?;
@@ -78,7 +80,7 @@ impl Pending {
 pub struct Terms {
     /// `None` for as many as there are cores.
     pub threads: Option<usize>,
-    /// Called after each iteration; false stops.
+    /// Called after each iteration; False stops.
     pub callback: Option<Py<PyAny>>,
 }
 
@@ -137,7 +139,7 @@ pub fn run(
                     break;
                 }
             }
-            return Err(Stopped::new_err((Py::new(py, Pending(desk))?,)));
+            return Err(Stopped::new_err((Py::new(py, Pending(Mutex::new(Some(desk))))?,)));
         }
     }
 }

@@ -37,8 +37,7 @@ pub fn mesh(
     run(py, Terms { threads, callback }, move |context, _| {
         let made = meshed(&polygon, "the polygon".as_ref(), &wishes(&words)?, given, context)?;
         let unmet: Vec<String> = made.unmet.iter().map(ToString::to_string).collect();
-        let notes: Vec<String> = polygon.repairs().iter().chain(&made.report.notes).cloned().collect();
-        let said = json(&serde_json::json!({ "quality": made.quality, "run": made.report, "notes": notes, "unmet": unmet }))?;
+        let said = json(&serde_json::json!({ "quality": made.quality, "run": made.report, "notes": made.report.notes, "unmet": unmet }))?;
         let Mesh { vertices, triangles, edges } = made.mesh;
         answer(move |py| {
             let ends = edges.iter().map(|edge| edge.ends.map(|v| v as i64)).collect();

@@ -3,12 +3,13 @@
 use evenly::PointSet;
 use evenly_cli::wishes::{Made, Wishes};
 use evenly_io::{Draw, Subject};
+use numpy::PyUntypedArrayMethods as _;
 use pyo3::prelude::*;
 
 use crate::answer::{Answer, answer, json};
-use crate::arrays::{Rows, array, numbers};
+use crate::arrays::{Rows, array, numbers, rows};
 use crate::job::{Terms, run};
-use crate::spaces::{DensityArg, SpaceArg, point_set};
+use crate::spaces::{DensityArg, SpaceArg, point_set, value_error};
 
 /// Positions, and the report as JSON.
 fn made(made: Made) -> anyhow::Result<Answer> {
@@ -29,7 +30,7 @@ pub fn generate(
     threads: Option<usize>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
-    let n_fixed = numpy::PyUntypedArrayMethods::shape(&*fixed)[0];
+    let n_fixed = fixed.shape()[0];
     let fixed = point_set(py, &fixed, space, density, n_fixed)?;
     run(py, Terms { threads, callback }, move |context, _| made(Wishes::parse(&words)?.generate(&fixed, n, context)?))
 }
@@ -46,9 +47,9 @@ pub fn optimize(
     threads: Option<usize>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
-    let n_fixed = numpy::PyUntypedArrayMethods::shape(&*fixed)[0];
+    let n_fixed = fixed.shape()[0];
     let fixed = point_set(py, &fixed, space, density, n_fixed)?;
-    let points = PointSet::new(fixed.space(), crate::arrays::rows(&points)?).map_err(crate::spaces::value_error)?;
+    let points = PointSet::new(fixed.space(), rows(&points)?).map_err(value_error)?;
     run(py, Terms { threads, callback }, move |context, _| made(Wishes::parse(&words)?.optimize(&fixed, points, context)?))
 }
 
@@ -62,7 +63,7 @@ pub fn measure(py: Python, points: Rows, space: SpaceArg, density: Option<Densit
     })
 }
 
-/// The plane of power, `power[a][b + half height]`, and the means over rings.
+/// The plane of power, row by row from the least frequency along y, its width and height, the steps between frequencies, and the means over rings.
 #[pyfunction]
 pub fn power_spectrum(py: Python, sets: Vec<Rows>, space: SpaceArg, max_frequency: f64, threads: Option<usize>) -> PyResult<Py<PyAny>> {
     let sets = all(&sets, space)?;
@@ -107,7 +108,7 @@ pub fn radial_spectrum(py: Python, sets: Vec<Rows>, space: SpaceArg, threads: Op
 
 fn all(sets: &[Rows], space: SpaceArg) -> PyResult<Vec<PointSet>> {
     let space = space.space()?;
-    sets.iter().map(|set| PointSet::new(&space, crate::arrays::rows(set)?).map_err(crate::spaces::value_error)).collect()
+    sets.iter().map(|set| PointSet::new(&space, rows(set)?).map_err(value_error)).collect()
 }
 
 /// The corners of the Delaunay triangles, as (3 k, 2) places: on a torus those near the seam reach out of the domain.

@@ -1,5 +1,6 @@
 //! Dots spread by a density.
 
+use anyhow::bail;
 use evenly::{
     CapacityParams, Density, DistMeshParams, LloydParams, PointSet, ProcrustesParams, PushPullParams, RunContext, Space, WellSpacedParams,
 };
@@ -14,7 +15,7 @@ const PASSES: usize = 60;
 /// The optimiser that a drawing takes; `None` for a method that makes points at once.
 ///
 /// # Errors
-/// No iterations.
+/// No iterations, or some for a method that is no optimiser.
 pub fn optimizer(method: Method, iterations: Option<usize>, seed: u64) -> anyhow::Result<Option<Box<dyn Optimizer>>> {
     let max_passes = Some(iterations.unwrap_or(PASSES));
     let lloyd = LloydParams { seed, ..LloydParams::default() };
@@ -27,6 +28,7 @@ pub fn optimizer(method: Method, iterations: Option<usize>, seed: u64) -> anyhow
         Method::Lloyd => Box::new(LloydParams { iterations: iterations.unwrap_or(lloyd.iterations), ..lloyd }),
         Method::DistMesh => Box::new(DistMeshParams { iterations: iterations.unwrap_or(distmesh.iterations), ..distmesh }),
         Method::Procrustes => Box::new(ProcrustesParams { max_iterations: iterations.unwrap_or(procrustes.max_iterations), ..procrustes }),
+        _ if iterations.is_some() => bail!("--iterations is for optimisers; {} is none", method.name()),
         _ => return Ok(None),
     };
     optimizer.check().map_err(by_flag)?;

@@ -12,6 +12,13 @@ from evenly import _evenly
 Answer = TypeVar("Answer")
 Result = TypeVar("Result")
 
+_MOST_THREADS = 1024
+_FLAGS = {"no_warp", "local", "no_obtuse", "invert"}
+_NEEDED = {"method", "layers", "sizes", "order"}
+_CHOICES = _NEEDED | {"start", "preset", "mode", "schedule"}
+_TARGETS = {"min_distance", "coverage_radius", "capacity_tolerance"}
+_COUNTS = {"seed", "iterations", "tries", "n_triangles"}
+
 
 class Progress(NamedTuple):
     """What is known of a run after an iteration."""
@@ -109,11 +116,3 @@ def words(options: Mapping[str, object]) -> list[str]:
 
 def _is_whole(value: object) -> bool:
     return isinstance(value, numbers.Integral) and not isinstance(value, bool)
-
-
-_MOST_THREADS = 1024
-_FLAGS = {"no_warp", "local", "no_obtuse", "invert"}
-_NEEDED = {"method", "layers", "sizes", "order"}
-_CHOICES = _NEEDED | {"start", "preset", "mode", "schedule"}
-_TARGETS = {"min_distance", "coverage_radius", "capacity_tolerance"}
-_COUNTS = {"seed", "iterations", "tries", "n_triangles"}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 import numpy as np
 
 from evenly import _evenly
-from evenly._arrays import converted, Floats, frozen, Frozen, rows
+from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import run, threads_of
 from evenly._spaces import Pair, Space, native, space_of

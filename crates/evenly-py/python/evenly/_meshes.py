@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenly import _evenly
-from evenly._arrays import Floats, frozen, Frozen, rows
+from evenly._arrays import Floats, Frozen, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._seeds import Seed, number

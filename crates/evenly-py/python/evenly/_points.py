@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenly import _evenly
-from evenly._arrays import converted, Floats, frozen, Frozen, rows
+from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._measures import Measures, measure

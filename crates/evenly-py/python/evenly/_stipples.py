@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenly import _evenly
-from evenly._arrays import converted, Floats, frozen, Frozen
+from evenly._arrays import Floats, Frozen, converted, frozen
 from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._seeds import Seed, number
 
