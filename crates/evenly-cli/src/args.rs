@@ -10,6 +10,7 @@ use crate::mesh_args::Mesh;
 use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
 use crate::parse::{parse_count, parse_format};
+use crate::remesh_args::{Remesh, Sample};
 use crate::shared_args::{DensityArgs, DrawArg, FixedArg, LongArgs, SpaceArgs};
 use crate::stipple_args::Stipple;
 
@@ -22,6 +23,7 @@ Examples:
   evenly analyze better.csv --size 640,480 --json
   evenly stipple photo.jpg -n 20000 -o drawing.svg
   evenly mesh area.geojson --spacing 50 -o area.msh
+  evenly remesh bunny.obj -n 8500 -o out.ply
   evenly compare -n 1000 --methods lloyd,well-spaced,push-pull -o table.html
 
 Exit codes: 0 done; 1 done, but not converged or a target not reached; 2 bad usage or input, or no output; 130 interrupted, state reached written";
@@ -46,6 +48,10 @@ pub enum Command {
     Stipple(Stipple),
     /// Mesh a polygon with triangles
     Mesh(Mesh),
+    /// Give a surface a new mesh: exactly so many vertices, and no obtuse triangle
+    Remesh(Remesh),
+    /// Spread points over a surface
+    Sample(Sample),
     /// Run several methods on the same points, and lay their measures side by side
     Compare(Compare),
     /// Sample the zone plate sin(x^2 + y^2) with points, and measure noise and aliasing

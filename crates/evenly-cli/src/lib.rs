@@ -16,6 +16,8 @@ mod optimizer;
 mod page;
 mod parse;
 mod record;
+mod remesh_args;
+pub mod remeshed;
 mod reproduce;
 mod session;
 mod shared_args;
@@ -23,6 +25,7 @@ mod sizes;
 mod stipple;
 mod stipple_args;
 pub mod stippled;
+mod surface_measures;
 mod table;
 mod talk;
 mod unmet;
@@ -58,6 +61,8 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Analyze(args) => commands::analyze::run(args),
         Command::Stipple(args) => commands::stipple::run(args),
         Command::Mesh(args) => commands::mesh::run(args),
+        Command::Remesh(args) => commands::remesh::run(args),
+        Command::Sample(args) => commands::sample::run(args),
         Command::Compare(args) => commands::compare::run(args, flags),
         Command::Zoneplate(args) => commands::zoneplate::run(args),
         Command::Bilateral(args) => commands::bilateral::run(args),

@@ -10,9 +10,15 @@ use crate::shared_args::{DensityArgs, DrawArg, LongArgs, SpaceArgs};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
 pub struct Analyze {
-    /// Points as .txt, .csv or .npy; - is stdin. Of several sets the spectrum is the mean of theirs
+    /// Points as .txt, .csv or .npy; - is stdin. Of several sets the spectrum is the mean of theirs. Or a mesh, as .ply .obj .off .stl .gltf .glb
     #[arg(required = true)]
     pub inputs: Vec<PathBuf>,
+    /// Of a mesh: the one that it stands for, for the distance to it
+    #[arg(long, value_name = "MESH")]
+    pub reference: Option<PathBuf>,
+    /// Of a mesh: certify all angles by this ratio of the largest circumradius to the shortest edge, and list where they are not so [default: 0.7, of push-pull's 0.90 and 0.63]
+    #[arg(long, value_name = "B", allow_negative_numbers = true)]
+    pub certify: Option<f64>,
     #[command(flatten)]
     pub space: SpaceArgs,
     #[command(flatten)]

@@ -124,7 +124,7 @@ impl MeshWishes {
     }
 }
 
-fn parse_mesh_format(text: &str) -> Result<MeshFormat, String> {
+pub fn parse_mesh_format(text: &str) -> Result<MeshFormat, String> {
     let names: Vec<&str> = MeshFormat::ALL.iter().map(|&(name, _)| name).collect();
     MeshFormat::from_name(text).ok_or_else(|| format!("it must be one of {}", names.join(", ")))
 }

@@ -86,7 +86,7 @@ pub struct StartArgs {
 
 /// A number, or none.
 #[derive(Clone, Copy)]
-pub struct Target(Option<f64>);
+pub struct Target(pub Option<f64>);
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum ModeArg {
@@ -105,7 +105,7 @@ enum ScheduleArg {
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum PresetArg {
+pub enum PresetArg {
     /// Distance 0.75, coverage 0.75, tolerance 0.1
     Fast,
     /// 0.85, 0.67, 0.0386
@@ -318,7 +318,7 @@ pub fn by_flag(error: Error) -> anyhow::Error {
     }
 }
 
-fn set<T>(field: &mut T, value: Option<T>) {
+pub fn set<T>(field: &mut T, value: Option<T>) {
     if let Some(value) = value {
         *field = value;
     }
@@ -346,7 +346,7 @@ impl From<PresetArg> for PushPullPreset {
     }
 }
 
-fn parse_target(text: &str) -> Result<Target, String> {
+pub fn parse_target(text: &str) -> Result<Target, String> {
     if text == "off" {
         return Ok(Target(None));
     }

@@ -7,6 +7,7 @@ mod map;
 mod mesh;
 mod page;
 mod series;
+mod shaded;
 mod svg;
 mod waves;
 
@@ -20,6 +21,8 @@ pub(crate) use mesh::mesh_figure;
 use page::Page;
 pub use page::Subject;
 pub use series::{Curve, chart};
+pub use shaded::compared_svg;
+pub(crate) use shaded::shaded_figure;
 use svg::drawing;
 pub(crate) use svg::{FONT, Short, sheet};
 

@@ -24,6 +24,15 @@ pub fn read_rows(path: &Path) -> Result<Vec<[f64; 3]>, Error> {
     text::read_rows(&name, &bytes)
 }
 
+/// Reads a number a line from text.
+///
+/// # Errors
+/// As [`read_positions`].
+pub fn read_numbers(path: &Path) -> Result<Vec<f64>, Error> {
+    let (name, bytes) = read_bytes(path)?;
+    Ok(text::read_rows::<1>(&name, &bytes)?.into_iter().map(|[number]| number).collect())
+}
+
 /// A file's name for messages, and all that is in it; `-` is stdin.
 pub(crate) fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Error> {
     let name = display_name(path, "stdin");

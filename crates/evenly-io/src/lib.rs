@@ -1,7 +1,8 @@
-//! Everything of evenly that touches files: points, polygons and pictures in and out, meshes and figures out.
+//! Everything of evenly that touches files: points, polygons, meshes and pictures in and out, figures out.
 //!
 //! A file is written whole or not at all; an error names the file, the line and the value.
 
+mod clouds;
 mod drawing;
 mod error;
 mod figure;
@@ -16,12 +17,14 @@ mod pixels;
 mod render;
 mod scraps;
 mod shapes;
+mod surfaces;
 mod text;
 
+pub use clouds::{CloudFormat, write_cloud};
 pub use drawing::{Drawing, Layer, Marks};
 pub use error::Error;
-pub use figure::{Axis, Curve, Draw, Subject, chart, figure, picture};
-pub use file::{Target, make_folder, read_positions, read_rows};
+pub use figure::{Axis, Curve, Draw, Subject, chart, compared_svg, figure, picture};
+pub use file::{Target, make_folder, read_numbers, read_positions, read_rows};
 pub use format::Format;
 pub use image::{read_image, write_image};
 pub use meshes::{MeshFormat, mesh_svg, write_mesh, write_polygons};
@@ -30,3 +33,4 @@ pub use photograph::{Photograph, Tone, luma};
 pub use render::rendered;
 pub use scraps::Scraps;
 pub use shapes::{read_lines, read_polygon};
+pub use surfaces::{TrianglesRead, read_triangles, triangles_svg, write_triangles, write_triangles_figure};

@@ -25,7 +25,11 @@ pub fn write_points(points: &PointSet, draw: &[Draw], recipe: &str, target: &Tar
 /// # Errors
 /// As [`Target::write`] and [`figure`]; [`Error::Format`] for a target that holds points.
 pub fn write_figure(subject: &Subject, draw: &[Draw], recipe: &str, target: &Target) -> Result<(), Error> {
-    let svg = figure(subject, draw, recipe)?;
+    write_svg(figure(subject, draw, recipe)?, recipe, target)
+}
+
+/// Writes a drawing, as the target's format has it.
+pub(crate) fn write_svg(svg: String, recipe: &str, target: &Target) -> Result<(), Error> {
     let rendered = match target.format() {
         Format::Png => render::png(&svg, recipe),
         Format::Pdf => render::pdf(&svg, recipe),

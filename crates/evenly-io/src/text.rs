@@ -87,7 +87,8 @@ fn is_number(field: &str) -> bool {
     field.parse::<f64>().is_ok()
 }
 
-fn parse(field: &str) -> Result<f64, String> {
+/// A finite number.
+pub(crate) fn parse(field: &str) -> Result<f64, String> {
     match field.parse::<f64>() {
         Ok(x) if x.is_finite() => Ok(x),
         Ok(_) => Err(format!("{field} is not a finite number")),
@@ -123,7 +124,7 @@ fn write_lines(text: &mut String, points: &[[f64; 2]], separator: char) {
 }
 
 /// Prints the shortest digits that read back to the same number; very large and small ones with an exponent.
-struct Shortest(f64);
+pub(crate) struct Shortest(pub f64);
 
 impl std::fmt::Display for Shortest {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -65,6 +65,9 @@ pub enum Error {
         /// Where, in input units.
         at: [f64; 2],
     },
+    /// Triangles that make no surface, or leave in doubt which.
+    #[error("{0}")]
+    InvalidMesh(String),
     /// Points from which no triangulation can be made: fewer than three, or all on one line.
     #[error("{0}")]
     Degenerate(String),

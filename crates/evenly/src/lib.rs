@@ -24,9 +24,11 @@ mod optimize;
 mod points;
 mod polygon;
 mod predicates;
+mod remesh;
 mod run;
 mod space;
 mod star;
+mod surface;
 mod sweep;
 mod tour;
 mod triangulation;
@@ -52,7 +54,12 @@ pub use points::{
     poisson_disk_around, poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, warp, warp_isotropic, white, white_by_density,
 };
 pub use polygon::Polygon;
+pub use remesh::{RemeshMethod, RemeshParams, Remeshed, SurfacePoint, SurfaceSampling, remesh, sample_surface};
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Region, Space, Torus};
+pub use surface::{
+    Attribute, CertificateBreach, Surface, SurfaceDistance, SurfaceQuality, SurfaceSizing, TriangleMesh, certificate, expected_vertices,
+    self_intersections, surface_distance, surface_quality, surface_sizes,
+};
 pub use sweep::Schedule;
 pub use tour::tour;

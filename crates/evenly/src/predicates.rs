@@ -3,8 +3,8 @@
 //! A plain f64 filter stands in front and answers nearly every call; its error bounds are Shewchuk's
 //! ("Adaptive precision floating-point arithmetic", 1997, doi 10.1007/PL00009321).
 
-use glam::DVec2;
-use robust::Coord;
+use glam::{DVec2, DVec3};
+use robust::{Coord, Coord3D};
 
 /// Half an ulp of 1, Shewchuk's epsilon.
 const EPSILON: f64 = f64::EPSILON / 2.0;
@@ -56,6 +56,12 @@ pub(crate) fn are_collinear(points: &[DVec2]) -> bool {
         return true;
     };
     rest.iter().all(|&p| robust::orient2d(coord(first), coord(far), coord(p)) == 0.0)
+}
+
+/// Positive where `d` lies on the side of the triangle from which its corners run clockwise, negative on the other, and 0 in its plane.
+pub(crate) fn orientation(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
+    let [a, b, c, d] = [a, b, c, d].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
+    robust::orient3d(a, b, c, d)
 }
 
 #[cfg(test)]

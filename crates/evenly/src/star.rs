@@ -259,6 +259,13 @@ impl Star {
         (0..self.n_spokes()).map(of_wedge).sum()
     }
 
+    /// The part of the Voronoi cell's area that lies in wedge `k`.
+    pub fn kite(&self, k: usize) -> f64 {
+        let (u, v) = (self.lengths[k], self.lengths[self.after(k)]);
+        let [of_u, of_v] = self.wedges[k].halves(u, v);
+        0.25 * (u * of_u + v * of_v)
+    }
+
     /// The area of the Voronoi cell; leaves the lengths of its edges in `sides`.
     pub fn measure_cell(&mut self) -> f64 {
         let Self { lengths, wedges, sides, .. } = self;

@@ -67,6 +67,12 @@ impl OptBetaParams {
     }
 }
 
+impl OptBetaParams {
+    pub(crate) fn rule(&self) -> ToLeastRatio {
+        ToLeastRatio { damping: self.damping.unwrap_or(if self.beta > LOOSE { 0.7 } else { 1.0 }) }
+    }
+}
+
 impl Targets for OptBetaParams {
     fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
         unmet_beta(self.beta, measures)
@@ -119,7 +125,6 @@ pub(crate) fn to_least_ratio(
     run: &mut RunContext,
     report: &mut Report,
 ) -> Result<Vec<DVec2>, Error> {
-    let damping = params.damping.unwrap_or(if params.beta > LOOSE { 0.7 } else { 1.0 });
     let mut plan = Plan { order: Order::Rows, ..Plan::of_passes(params.iterations, 0) };
     let mut best = (beta(sweep)?, sweep.places());
     report.energy.push(best.0);
@@ -131,7 +136,7 @@ pub(crate) fn to_least_ratio(
             break Outcome::IterationLimit;
         }
         plan.max_passes = report.iterations + 1;
-        let ending = sweep.run(&ToLeastRatio { damping }, &plan, run, report);
+        let ending = sweep.run(&params.rule(), &plan, run, report);
         if ending == Ending::Cancelled {
             break Outcome::Cancelled;
         }
@@ -153,7 +158,7 @@ fn beta(sweep: &mut Sweep) -> Result<f64, Error> {
 }
 
 /// Goes where its own cell's ratio is least.
-struct ToLeastRatio {
+pub(crate) struct ToLeastRatio {
     damping: f64,
 }
 

@@ -118,7 +118,7 @@ impl PushPullParams {
         }
     }
 
-    fn rule(&self) -> PushPull {
+    pub(crate) fn rule(&self) -> PushPull {
         let &Self { min_distance, coverage_radius, capacity_tolerance, relaxation, .. } = self;
         PushPull { min_distance, coverage_radius, capacity_tolerance, relaxation }
     }

@@ -73,7 +73,7 @@ impl WellSpacedParams {
     }
 
     /// One distance and one radius for all.
-    fn targets(&self) -> PushPullParams {
+    pub(crate) fn targets(&self) -> PushPullParams {
         let [.., last] = &WAYS;
         let &Way { kappa, relaxation, capacity_tolerance, .. } = WAYS.iter().find(|way| self.beta >= way.beta).unwrap_or(last);
         // A generous ratio needs no distance beyond the hexagonal lattice's.

@@ -19,7 +19,7 @@ const REACH: u32 = 2;
 /// The most cells along an axis: a mark has 15 bits for a block's number.
 const MAX_CELLS: u32 = 1 << 12;
 
-pub(super) struct Cells {
+pub(crate) struct Cells {
     /// Cells along each axis: powers of two, so that a block's number wraps by masking.
     n_cells: [u32; 2],
     /// The points of each cell, in order of their index.
@@ -41,6 +41,11 @@ impl Cells {
         let mut cells = Self { n_cells, members: Vec::new(), starts: vec![0; (n_cells[0] * n_cells[1]) as usize + 1] };
         cells.assign(mesh);
         cells
+    }
+
+    /// One cell with all points, for one thread.
+    pub fn one(n_points: usize) -> Self {
+        Self { n_cells: [1, 1], members: (0..n_points as u32).collect(), starts: vec![0, n_points as u32] }
     }
 
     fn assign(&mut self, mesh: &mut LiveMesh) {

@@ -5,13 +5,14 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::cells::Cells;
+use super::ground::{Buffer, Ground};
 use super::summed::summed_pass;
 use super::visit::{Work, visit};
 use crate::error::Error;
 use crate::points::Random;
 use crate::run::{Phase, Progress, Report, RunContext};
 use crate::star::Rule;
-use crate::triangulation::{LiveMesh, StarBuffer, Territory};
+use crate::triangulation::{LiveMesh, Territory};
 
 /// When the moves are made that a pass asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -80,22 +81,22 @@ pub(crate) enum Ending {
 }
 
 /// Points on their way.
-pub(crate) struct Sweep {
-    mesh: LiveMesh,
+pub(crate) struct Sweep<G: Ground = LiveMesh> {
+    mesh: G,
     cells: Cells,
     /// What each pass wanted to move: squared, in spacings, on average of the points.
     unrest: Vec<f64>,
-    best: Best,
+    best: Best<G::State>,
     /// How far the sweep has come, as it was last shown.
     fraction: f64,
 }
 
 /// The state after the pass that found the least wrong.
-struct Best {
+struct Best<S> {
     wrong: f64,
     /// The pass, counted from 1; 0 for the start.
     pass: usize,
-    places: Vec<DVec2>,
+    state: S,
 }
 
 /// A state is kept as the best if it has less than this share of what is wrong with the one that is kept: copies cost time.
@@ -111,16 +112,16 @@ const RESTLESS: f64 = 0.007;
 /// After this many passes, and at the powers of two before, points are put into the cells where they are by then.
 const RENEWAL: usize = 64;
 
-impl Best {
+impl<S> Best<S> {
     /// The state of the mesh after so many passes, of which nothing is known yet.
-    fn start(mesh: &LiveMesh, pass: usize) -> Self {
-        Self { wrong: f64::INFINITY, pass, places: mesh.points() }
+    fn start(mesh: &impl Ground<State = S>, pass: usize) -> Self {
+        Self { wrong: f64::INFINITY, pass, state: mesh.state() }
     }
 }
 
-impl Sweep {
-    pub fn new(mut mesh: LiveMesh) -> Self {
-        let cells = Cells::new(&mut mesh);
+impl<G: Ground> Sweep<G> {
+    pub fn new(mut mesh: G) -> Self {
+        let cells = mesh.cells();
         let best = Best::start(&mesh, 0);
         Self { mesh, cells, unrest: Vec::new(), best, fraction: 0.0 }
     }
@@ -136,7 +137,7 @@ impl Sweep {
             let pass = self.unrest.len();
             if pass.is_power_of_two() || pass.is_multiple_of(RENEWAL) {
                 debug_assert_eq!(self.mesh.check(), Ok(()));
-                self.cells = Cells::new(&mut self.mesh);
+                self.cells = self.mesh.cells();
             }
             let work = match plan.schedule {
                 Schedule::InTurn => self.pass(rule, plan.order, Random::derived(plan.seed, report.iterations), run),
@@ -160,11 +161,11 @@ impl Sweep {
             let Ok(was_torn) = self.mesh.mend() else { return Ending::Stuck };
             if was_torn {
                 report.triangulations += 1;
-                self.cells = Cells::new(&mut self.mesh);
+                self.cells = self.mesh.cells();
             }
             if is_still && n_late_flips == 0 && !was_torn {
                 // A point may see others than its neighbours in the mesh, and have been clean while they moved.
-                if is_sure || self.mesh.domain().border.is_none() {
+                if is_sure || !self.mesh.sees_beyond() {
                     return Ending::Converged;
                 }
                 self.mesh.soil_all();
@@ -191,16 +192,17 @@ impl Sweep {
                 return None;
             }
             let cells = colour.into_par_iter();
-            let done: Vec<Work> =
-                cells.map_init(StarBuffer::default, |buffer, cell| self.visit_cell(rule, cell, order, seed, buffer)).collect();
+            let done: Vec<Work> = cells
+                .map_init(|| G::Buffer::sensing(rule.senses()), |buffer, cell| self.visit_cell(rule, cell, order, seed, buffer))
+                .collect();
             done.iter().for_each(|work| total.add(work));
         }
         let deferred = std::mem::take(&mut total.deferred);
-        total.add(&self.visit_all(rule, &deferred, Territory::EVERYTHING, &mut StarBuffer::default()));
+        total.add(&self.visit_all(rule, &deferred, Territory::EVERYTHING, &mut G::Buffer::sensing(rule.senses())));
         Some(total)
     }
 
-    fn visit_cell(&self, rule: &impl Rule, cell: u32, order: Order, seed: u64, buffer: &mut StarBuffer) -> Work {
+    fn visit_cell(&self, rule: &impl Rule, cell: u32, order: Order, seed: u64, buffer: &mut G::Buffer) -> Work {
         let mut dirty: Vec<u32> = self.cells.members(cell).iter().copied().filter(|&v| self.mesh.is_dirty(v)).collect();
         match order {
             Order::Shuffled => Random::new(seed, u64::from(cell)).shuffle(&mut dirty),
@@ -209,16 +211,16 @@ impl Sweep {
         self.visit_all(rule, &dirty, self.cells.territory(cell), buffer)
     }
 
-    fn visit_all(&self, rule: &impl Rule, points: &[u32], territory: Territory, buffer: &mut StarBuffer) -> Work {
+    fn visit_all(&self, rule: &impl Rule, points: &[u32], territory: Territory, buffer: &mut G::Buffer) -> Work {
         let mut work = Work::default();
-        (buffer.n_flips, buffer.senses) = (0, rule.senses());
+        let n_flips = buffer.n_flips();
         for &v in points {
             match visit(&self.mesh, rule, v, territory, buffer) {
                 Ok(unrest) => work.count(unrest),
                 Err(_) => work.deferred.push(v),
             }
         }
-        work.n_flips = buffer.n_flips;
+        work.n_flips = buffer.n_flips() - n_flips;
         work
     }
 
@@ -228,7 +230,7 @@ impl Sweep {
         let worst = if self.mesh.has_density() { work.unrest.squares.sqrt() } else { work.unrest.longest };
         let wrong = worst * work.unrest.squares.sqrt();
         if wrong < BETTER * self.best.wrong || work.unrest.is_none() {
-            self.best = Best { wrong, pass, places: self.mesh.points() };
+            self.best = Best { wrong, pass, state: self.mesh.state() };
         }
     }
 
@@ -238,47 +240,27 @@ impl Sweep {
     }
 
     /// The best state, if the sweep goes on with another rule: all points are looked at anew.
-    pub fn change_rule(&mut self, n_passes: usize) -> Vec<DVec2> {
+    pub fn change_rule(&mut self, n_passes: usize) -> G::State {
         self.mesh.soil_all();
-        std::mem::replace(&mut self.best, Best::start(&self.mesh, n_passes)).places
+        std::mem::replace(&mut self.best, Best::start(&self.mesh, n_passes)).state
     }
 
     /// Goes back to the best state.
     pub fn return_to_best(&mut self) -> Result<(), Error> {
-        self.mesh.rebuild(self.best.places.clone())
-    }
-
-    /// The caller's index of each point, and its place in the best state.
-    pub fn into_best(self) -> (Vec<u32>, Vec<DVec2>) {
-        (self.mesh.into_order(), self.best.places)
-    }
-
-    /// As [`LiveMesh::distance_and_radius`].
-    ///
-    /// # Errors
-    /// As there.
-    pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
-        self.mesh.distance_and_radius()
+        self.mesh.restore(self.best.state.clone())
     }
 
     pub fn n_points(&self) -> usize {
         self.mesh.n_points()
     }
 
-    /// The places of the points, as the mesh has them.
-    pub fn places(&self) -> Vec<DVec2> {
-        self.mesh.points()
+    pub fn ground_mut(&mut self) -> &mut G {
+        &mut self.mesh
     }
 
     /// The mesh as it is.
-    pub fn into_mesh(self) -> LiveMesh {
+    pub fn into_mesh(self) -> G {
         self.mesh
-    }
-
-    /// The caller's index of each point, and its place in the last state.
-    pub fn into_last(self) -> (Vec<u32>, Vec<DVec2>) {
-        let places = self.mesh.points();
-        (self.mesh.into_order(), places)
     }
 
     /// Unstable points become fewer about exponentially.
@@ -289,6 +271,32 @@ impl Sweep {
         let of_passes = report.iterations as f64 / plan.total_passes as f64;
         self.fraction = self.fraction.max(1.0 - (1.0 + n_unstable).ln() / (1.0 + n_points).ln()).max(of_passes);
         run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share, fraction: self.fraction });
+    }
+}
+
+impl Sweep {
+    /// The caller's index of each point, and its place in the best state.
+    pub fn into_best(self) -> (Vec<u32>, Vec<DVec2>) {
+        (self.mesh.into_order(), self.best.state)
+    }
+
+    /// As [`LiveMesh::distance_and_radius`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
+        self.mesh.distance_and_radius()
+    }
+
+    /// The places of the points, as the mesh has them.
+    pub fn places(&self) -> Vec<DVec2> {
+        self.mesh.points()
+    }
+
+    /// The caller's index of each point, and its place in the last state.
+    pub fn into_last(self) -> (Vec<u32>, Vec<DVec2>) {
+        let places = self.mesh.points();
+        (self.mesh.into_order(), places)
     }
 }
 

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
+use super::ground::{Buffer, Ground, Reading, Way};
 use crate::star::Rule;
-use crate::triangulation::{LiveMesh, MIRROR, Outside, StarBuffer, Territory};
+use crate::triangulation::{MIRROR, Outside, Territory};
 
 /// Moves below this, in local spacings, are not worth making.
 const STILL: f64 = 1e-9;
@@ -67,10 +68,16 @@ impl Work {
 }
 
 /// Visits a point; if the rule finds something wrong there, the point stays dirty.
-pub(super) fn visit(mesh: &LiveMesh, rule: &impl Rule, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<Unrest, Outside> {
+pub(super) fn visit<G: Ground>(
+    mesh: &G,
+    rule: &impl Rule,
+    v: u32,
+    territory: Territory,
+    buffer: &mut G::Buffer,
+) -> Result<Unrest, Outside> {
     let unrest = ask(mesh, rule, v, territory, buffer)?;
-    for k in 0..buffer.moves.len() {
-        let (point, by) = buffer.moves[k];
+    for k in 0..buffer.reading().moves.len() {
+        let (point, by) = buffer.reading().moves[k];
         mesh.relocate(point, by, territory, buffer)?;
     }
     if unrest.is_none() {
@@ -80,12 +87,12 @@ pub(super) fn visit(mesh: &LiveMesh, rule: &impl Rule, v: u32, territory: Territ
 }
 
 /// Reads a star, and leaves the moves that the rule asks for in the buffer.
-pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<Unrest, Outside> {
+pub(super) fn ask<G: Ground, R: Rule>(mesh: &G, rule: &R, v: u32, territory: Territory, buffer: &mut G::Buffer) -> Result<Unrest, Outside> {
     mesh.read(v, territory, buffer)?;
     if R::LOOKS_AROUND {
         mesh.look_around(v, territory, buffer)?;
     }
-    let StarBuffer { star, spokes, moves, .. } = buffer;
+    let Reading { star, spokes, moves } = buffer.reading();
     moves.clear();
     if !rule.visit(star) {
         return Ok(Unrest::default());
@@ -93,8 +100,10 @@ pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territo
     // What is wrong is unrest, even where nothing can be moved: steps of a rule may undo each other.
     let mut unrest = Unrest::default();
     unrest.add_move(STILL);
-    let mut own: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * spoke.way).sum();
-    own += mesh.spacing() * star.shift;
+    let mut own = spokes.iter().zip(&star.weights).fold(G::Way::default(), |sum, (spoke, &weight)| sum + spoke.way * weight);
+    if star.shift != DVec2::ZERO {
+        own += mesh.unfolded(v, mesh.spacing() * star.shift);
+    }
     // Where points are dense, the same way means more.
     let scale = star.metric.scale;
     let longest = LONGEST / scale;
@@ -109,14 +118,14 @@ pub(super) fn ask<R: Rule>(mesh: &LiveMesh, rule: &R, v: u32, territory: Territo
         if change.abs() * scale <= STILL || spoke.length == 0.0 {
             continue;
         }
-        let by = mesh.along(point, change / spoke.length * spoke.way);
-        if by == DVec2::ZERO {
+        let by = mesh.along(point, spoke.way * (change / spoke.length));
+        if by == G::Way::default() {
             continue;
         }
         unrest.add_move(change.abs() * scale);
         if spoke.vertex == MIRROR {
             // The image goes as far as the vertex, to the other side.
-            own -= 0.5 * by;
+            own -= by * 0.5;
         } else if point != v {
             moves.push((point, by));
         }

@@ -3,6 +3,8 @@
 //! Triangle `t` owns the half-edges `3t`, `3t + 1`, `3t + 2`, in counter-clockwise order. A half-edge knows the vertex it
 //! leaves and the half-edge that runs the other way, in the neighbouring triangle; on a border there is none.
 
+use std::collections::HashSet;
+
 /// The twin of a half-edge on a border.
 pub(crate) const BORDER: u32 = u32::MAX;
 
@@ -149,6 +151,30 @@ impl HalfEdges {
             }
         }
         all
+    }
+
+    /// Proves that the triangles make a manifold: twins belong together, no half-edge is there twice, and each of so many vertices has one fan.
+    pub fn check_manifold(&self, n_vertices: usize) -> Result<(), String> {
+        let mut seen = HashSet::new();
+        for h in 0..self.origin.len() as u32 {
+            let ends = [self.origin[h as usize], self.target(h)];
+            if ends[0] == ends[1] || !seen.insert(ends) {
+                return Err(format!("half-edge {h} from {} to {} is there twice", ends[0], ends[1]));
+            }
+            let twin = self.twin[h as usize];
+            if twin != BORDER
+                && (self.twin.get(twin as usize) != Some(&h) || self.origin[twin as usize] != ends[1] || self.target(twin) != ends[0])
+            {
+                return Err(format!("half-edges {h} and {twin} are no twins"));
+            }
+        }
+        let mut n_leaving = vec![0; n_vertices];
+        self.origin.iter().for_each(|&v| n_leaving[v as usize] += 1);
+        let outgoing = self.outgoing(n_vertices);
+        match (0..n_vertices).find(|&v| outgoing[v] == BORDER || self.around(outgoing[v]).count() != n_leaving[v]) {
+            Some(v) => Err(format!("vertex {v} has no triangles, or more than one fan")),
+            None => Ok(()),
+        }
     }
 
     /// The half-edge of triangle `t` that leaves vertex `v`, one of its corners.

@@ -21,7 +21,7 @@ use crate::space::Domain;
 ///
 /// A point is dirty if something has changed around it since it was last cleaned; all are at first.
 pub(crate) struct LiveMesh {
-    pub(super) mesh: SharedMesh,
+    pub(super) mesh: SharedMesh<2>,
     /// The domain that was asked for, and the cover of it that the mesh fills.
     base: Domain,
     pub(super) domain: Domain,
@@ -56,7 +56,7 @@ impl LiveMesh {
         let n_frame = if base.is_periodic { 0 } else { FRAME.len() };
         let Triangulation { half_edges, positions, domain, copies, order } = triangulation;
         Ok(Self {
-            mesh: SharedMesh::new(&half_edges, &positions),
+            mesh: SharedMesh::new(&half_edges, positions.iter().map(|p| p.to_array())),
             base: base.clone(),
             domain,
             copies,
@@ -78,7 +78,7 @@ impl LiveMesh {
     pub fn bounded(base: &Domain, points: &[DVec2], bonds: Bonds, spacing: f64) -> Result<Self, Crossing> {
         let [border, lines] = bonds.segments();
         let planar = planar(Graph { points, border: &border, lines: &lines })?;
-        let mesh = SharedMesh::new(&planar.half_edges, &planar.positions);
+        let mesh = SharedMesh::new(&planar.half_edges, planar.positions.iter().map(|p| p.to_array()));
         Ok(Self {
             mesh,
             base: base.clone(),

@@ -9,19 +9,18 @@ use glam::DVec2;
 
 use super::half_edges::{BORDER, HalfEdges, next, prev};
 
-/// Half-edges and vertices, as in [`HalfEdges`], but shared.
-pub(super) struct SharedMesh {
+/// Half-edges and vertices, as in [`HalfEdges`], but shared. Of each vertex there are `N` numbers: where it is, and what belongs to the place.
+pub(crate) struct SharedMesh<const N: usize> {
     /// What follows a half-edge counter-clockwise: the apex of its triangle, and above it the next half-edge around its origin.
     ///
     /// These are origin and twin of the half-edge before it, so a walk around a vertex takes one load a step.
     turns: Vec<AtomicU64>,
-    vertices: Vec<Vertex>,
+    vertices: Vec<Vertex<N>>,
 }
 
 /// All that belongs to a vertex, side by side.
-struct Vertex {
-    x: AtomicU64,
-    y: AtomicU64,
+struct Vertex<const N: usize> {
+    place: [AtomicU64; N],
     /// A half-edge that leaves it; on a border that which lies there.
     outgoing: AtomicU32,
     /// Its block, and whether it is dirty.
@@ -56,13 +55,13 @@ fn pair(apex: u32, turned: u32) -> u64 {
     u64::from(turned) << 32 | u64::from(apex)
 }
 
-impl SharedMesh {
-    pub fn new(half_edges: &HalfEdges, positions: &[DVec2]) -> Self {
+impl<const N: usize> SharedMesh<N> {
+    pub fn new(half_edges: &HalfEdges, places: impl ExactSizeIterator<Item = [f64; N]>) -> Self {
+        let outgoing = half_edges.outgoing(places.len());
         let before = (0..half_edges.origin.len() as u32).map(|h| prev(h) as usize);
         let turns = before.map(|h| AtomicU64::new(pair(half_edges.origin[h], half_edges.twin[h])));
-        let vertices = positions.iter().zip(half_edges.outgoing(positions.len())).map(|(p, outgoing)| Vertex {
-            x: AtomicU64::new(p.x.to_bits()),
-            y: AtomicU64::new(p.y.to_bits()),
+        let vertices = places.zip(outgoing).map(|(place, outgoing)| Vertex {
+            place: place.map(|number| AtomicU64::new(number.to_bits())),
             outgoing: AtomicU32::new(outgoing),
             mark: AtomicU32::new(DIRTY),
         });
@@ -124,16 +123,16 @@ impl SharedMesh {
     }
 
     #[inline]
-    pub fn position(&self, v: u32) -> DVec2 {
-        let vertex = &self.vertices[v as usize];
-        DVec2::new(f64::from_bits(vertex.x.load(Relaxed)), f64::from_bits(vertex.y.load(Relaxed)))
+    pub fn place(&self, v: u32) -> [f64; N] {
+        let Vertex { place, .. } = &self.vertices[v as usize];
+        std::array::from_fn(|k| f64::from_bits(place[k].load(Relaxed)))
     }
 
     #[inline]
-    pub fn set_position(&self, v: u32, p: DVec2) {
-        let vertex = &self.vertices[v as usize];
-        vertex.x.store(p.x.to_bits(), Relaxed);
-        vertex.y.store(p.y.to_bits(), Relaxed);
+    pub fn set_place(&self, v: u32, place: [f64; N]) {
+        for (number, new) in self.vertices[v as usize].place.iter().zip(place) {
+            number.store(new.to_bits(), Relaxed);
+        }
     }
 
     /// Whether `v` lies in `territory`.
@@ -192,5 +191,17 @@ impl SharedMesh {
                 self.vertices[v as usize].outgoing.store(moved, Relaxed);
             }
         }
+    }
+}
+
+impl SharedMesh<2> {
+    #[inline]
+    pub fn position(&self, v: u32) -> DVec2 {
+        self.place(v).into()
+    }
+
+    #[inline]
+    pub fn set_position(&self, v: u32, p: DVec2) {
+        self.set_place(v, p.to_array());
     }
 }

@@ -4,19 +4,19 @@ use glam::DVec2;
 
 /// A half-edge from the vertex at hand to a neighbour, and the wedge between it and the next one, counter-clockwise.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Spoke {
+pub(crate) struct Spoke<W = DVec2> {
     /// A neighbour, or [`MIRROR`].
     pub vertex: u32,
     /// The half-edge there; [`BORDER`](super::half_edges::BORDER) for the last one of a fan.
-    pub(super) half_edge: u32,
+    pub half_edge: u32,
     /// Whether it is there once more, across the border on which the vertex is: the neighbour itself is seen too.
     pub is_echo: bool,
-    pub way: DVec2,
+    pub way: W,
     /// In spacings; only in a star.
     pub length: f64,
-    pub(super) squared: f64,
-    pub(super) dot: f64,
-    pub(super) cross: f64,
+    pub squared: f64,
+    pub dot: f64,
+    pub cross: f64,
 }
 
 /// In place of a neighbour: the vertex' own image behind a wall.

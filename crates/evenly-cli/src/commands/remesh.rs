@@ -1,0 +1,159 @@
+//! `evenly remesh`: a surface's new mesh.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::bail;
+use evenly::{CancelToken, CertificateBreach, Outcome, Report, RunContext, SurfaceDistance, SurfaceQuality};
+use evenly_io::{MeshFormat, Target, read_triangles, write_triangles, write_triangles_figure};
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::remesh_args::Remesh;
+use crate::remeshed::{Made, remeshed, surface_of, with_places};
+use crate::talk::say;
+use crate::{input, interrupt, record, session};
+
+/// How many places are named where angles are not as the targets imply.
+const NAMED: usize = 5;
+
+pub fn run(args: &Remesh) -> anyhow::Result<u8> {
+    let begin = Instant::now();
+    let targets = Targets::new(args)?;
+    let wishes = &args.wishes;
+    let density: Option<PathBuf> = wishes.density_path().map(Into::into);
+    input::require_one_stdin([Some(&args.input), density.as_ref()].into_iter().flatten())?;
+    let pool = session::pool(args.run.threads)?;
+    let read = read_triangles(&args.input)?;
+    let surface = surface_of(&read.mesh, &args.input, wishes.repair)?;
+    let mut notes: Vec<String> = read.notes.iter().chain(surface.notes()).cloned().collect();
+
+    let cancel = CancelToken::default();
+    interrupt::cancels(&cancel, args.run.quiet)?;
+    let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
+    let made = pool.install(|| {
+        let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
+        remeshed(&surface, &args.input, wishes, &mut context)
+    });
+    bar.finish_and_clear();
+    let Made { remeshed, quality, distance, self_intersections, breaches, report, parameters } = made?;
+    notes.extend(report.notes.iter().cloned());
+
+    let recipe = record::recipe(Some(wishes.seed));
+    write_triangles(&with_places(&remeshed), targets.format, &recipe, &targets.mesh)?;
+    if let Some(plot) = &targets.plot {
+        write_triangles_figure(&[("", &remeshed.mesh)], &recipe, plot)?;
+    }
+    let has_missed = matches!(report.outcome, Outcome::IterationLimit) || !breaches.is_empty();
+    let record = RemeshRecord {
+        version: record::VERSION,
+        command: record::command(),
+        seed: wishes.seed,
+        parameters: &parameters,
+        quality,
+        distance,
+        self_intersections,
+        run: report,
+        breaches: &breaches,
+        notes: &notes,
+        seconds: begin.elapsed().as_secs_f64(),
+    };
+    if !args.run.quiet {
+        summarize(&targets.mesh.name(), &record);
+    }
+    let text = serde_json::to_string_pretty(&record)? + "\n";
+    if let Some(report) = &targets.report {
+        report.write(text.as_bytes())?;
+    }
+    if args.json {
+        Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
+    }
+    Ok(match () {
+        () if cancel.is_cancelled() => interrupt::CODE,
+        () if has_missed => session::NOT_REACHED,
+        () => session::DONE,
+    })
+}
+
+/// Where everything goes, checked before the work begins.
+struct Targets {
+    mesh: Target,
+    format: MeshFormat,
+    plot: Option<Target>,
+    report: Option<Target>,
+}
+
+impl Targets {
+    fn new(args: &Remesh) -> anyhow::Result<Self> {
+        let force = args.run.force;
+        let mesh = Target::any(&args.output, force)?;
+        let format = match args.format {
+            Some(format) => format,
+            None if mesh.is_stdout() => MeshFormat::Ply,
+            None => MeshFormat::of_path(&args.output)?,
+        };
+        if format == MeshFormat::GeoJson {
+            bail!("GeoJSON is flat; a surface goes into .ply .obj .off .stl .vtu .msh or .npz");
+        }
+        if args.json && mesh.is_stdout() {
+            bail!("--json and the mesh cannot both go to stdout; name a file with -o, or with --report");
+        }
+        let plot = args.plot.as_ref().map(|path| Target::figure(path, force)).transpose()?;
+        let report = args.report.as_ref().map(|path| Target::any(path, force)).transpose()?;
+        let all: Vec<&Target> = [Some(&mesh), plot.as_ref(), report.as_ref()].into_iter().flatten().collect();
+        for (k, target) in all.iter().enumerate() {
+            if all[..k].iter().any(|before| before.is_same(target)) {
+                bail!("{}: two outputs cannot go to the same file", target.name());
+            }
+        }
+        Ok(Self { mesh, format, plot, report })
+    }
+}
+
+/// A run's whole record.
+#[derive(Serialize)]
+struct RemeshRecord<'a> {
+    version: &'static str,
+    command: String,
+    seed: u64,
+    parameters: &'a Value,
+    quality: SurfaceQuality,
+    distance: SurfaceDistance,
+    self_intersections: usize,
+    run: Report,
+    /// Triangles whose angles are not what the targets imply.
+    breaches: &'a [CertificateBreach],
+    notes: &'a [String],
+    seconds: f64,
+}
+
+fn summarize(name: &str, record: &RemeshRecord) {
+    for note in record.notes {
+        say(format_args!("note: {note}"));
+    }
+    let SurfaceQuality { n_vertices, n_triangles, euler_characteristic, n_border_edges, .. } = record.quality;
+    let SurfaceQuality { min_angle_deg, max_angle_deg, mean_min_angle_deg, obtuse_triangles, .. } = record.quality;
+    let SurfaceQuality { min_quality, mean_quality, valence_567_fraction, beta, .. } = record.quality;
+    let border = if n_border_edges > 0 { format!(", {n_border_edges} edges on the border") } else { String::new() };
+    say(format_args!(
+        "{name}: {n_vertices} vertices, {n_triangles} triangles, Euler characteristic {euler_characteristic}{border}, seed {}, {} passes, {:.2} s",
+        record.seed, record.run.iterations, record.seconds
+    ));
+    say(format_args!(
+        "angles {min_angle_deg:.2} to {max_angle_deg:.2} degrees (mean of the smallest {mean_min_angle_deg:.2}), {obtuse_triangles} obtuse triangles, \
+         quality {min_quality:.3} (mean {mean_quality:.3}), {:.2} % of valences 5 to 7, beta {beta:.3}",
+        100.0 * valence_567_fraction
+    ));
+    let SurfaceDistance { rms, hausdorff, max_from_reference, .. } = record.distance;
+    say(format_args!(
+        "distance to the input: RMS {rms:.2e}, Hausdorff {hausdorff:.2e} of the diagonal (input to mesh {max_from_reference:.3e}), {} self-intersections",
+        record.self_intersections
+    ));
+    for breach in record.breaches.iter().take(NAMED) {
+        let CertificateBreach { at: [x, y, z], min_angle_deg, max_angle_deg, .. } = breach;
+        say(format_args!("not as the targets imply: a triangle of {min_angle_deg:.2} to {max_angle_deg:.2} degrees at ({x}, {y}, {z})"));
+    }
+    if record.breaches.len() > NAMED {
+        say(format_args!("not as the targets imply: {} more triangles; --report has all", record.breaches.len() - NAMED));
+    }
+}

@@ -1,0 +1,192 @@
+//! The arguments of `evenly remesh`.
+
+use std::path::{Path, PathBuf};
+
+use clap::{ArgGroup, Args, ValueEnum};
+use evenly_io::{CloudFormat, MeshFormat};
+
+use crate::mesh_args::parse_mesh_format;
+use crate::method_args::{PresetArg, Target, parse_target};
+use crate::parse::parse_count;
+use crate::shared_args::LongArgs;
+
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  evenly remesh bunny.obj -n 8500 -o out.ply\n  evenly remesh part.stl --spacing 2.5 --features 30deg -o part.obj\n  evenly remesh scan.ply -n 20000 --density curvature -o out.ply --plot out.png\n\n\
+                  Meshes: .obj .ply .stl .off .gltf .glb; positions that are equal are one. Vertices carry facet, barycentric coordinates, normal, and what the input's carry, in .ply .vtu .npz.\n\
+                  Red triangles in drawings have an angle below 30 degrees, light red ones are obtuse.\n\
+                  Exit code 1: the mesh is written, but the method's targets were not reached everywhere; where is said."
+)]
+pub struct Remesh {
+    /// A triangle mesh, closed or open, in several parts as may be; - is stdin
+    pub input: PathBuf,
+    #[command(flatten)]
+    pub wishes: RemeshWishes,
+    /// Where the mesh goes: .ply .obj .off .stl .vtu .msh .npz, or drawn: .svg .png .pdf; - is stdout
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// The output's format, if its name does not tell
+    #[arg(long, value_parser = parse_mesh_format)]
+    pub format: Option<MeshFormat>,
+    /// A shaded picture of the mesh: .svg .png .pdf
+    #[arg(long, value_name = "OUT", help_heading = "Output")]
+    pub plot: Option<PathBuf>,
+    /// Write the run's whole record, as JSON
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub report: Option<PathBuf>,
+    /// Print the run's whole record on stdout, as JSON
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+    #[command(flatten)]
+    pub run: LongArgs,
+}
+
+/// What a new mesh is to be.
+#[derive(Args)]
+#[command(group = ArgGroup::new("size").required(true).multiple(true).args(["n_points", "spacing", "density"]))]
+pub struct RemeshWishes {
+    /// How many vertices, exactly
+    #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "spacing")]
+    pub n_points: Option<usize>,
+    /// The length of edges, in the input's units, instead; with a density their mean
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    pub spacing: Option<f64>,
+    /// The same seed gives the same mesh
+    #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
+    pub seed: u64,
+    /// How vertices find their places
+    #[arg(long, value_enum, default_value_t = RemeshRule::PushPull, help_heading = "Method")]
+    pub method: RemeshRule,
+    /// Targets of push-pull [default: 0.90, 0.63, tolerance 0.1: no obtuse triangle]
+    #[arg(long, value_enum, help_heading = "Method")]
+    pub preset: Option<PresetArg>,
+    /// Of push-pull: no two vertices nearer than this; 1 is the spacing
+    #[arg(long, value_name = "D", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Method")]
+    pub min_distance: Option<Target>,
+    /// Of push-pull: no circumradius larger than this
+    #[arg(long, value_name = "R", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Method")]
+    pub coverage_radius: Option<Target>,
+    /// Of push-pull: by how much cells may differ in area, while most vertices find their places
+    #[arg(long, value_name = "T", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Method")]
+    pub capacity_tolerance: Option<Target>,
+    /// Of well-spaced and opt-beta: the wanted ratio of the largest circumradius to the shortest edge
+    #[arg(long, value_name = "B", allow_negative_numbers = true, help_heading = "Method")]
+    pub beta: Option<f64>,
+    /// Passes at most [default: push-pull and well-spaced 1000, lloyd 100, the others 200]
+    #[arg(short, long, value_name = "N", value_parser = parse_count, help_heading = "Method")]
+    pub iterations: Option<usize>,
+    /// Edges of other lengths here and there: curvature[:error], lfs, linear:axis,ratio, attr:NAME, or a file with a number for each vertex
+    ///
+    /// curvature: shorter where it bends; with an error, in the input's units, so short that triangles are about so far from the input, and as many as it takes, unless -n
+    /// says how many. lfs: in proportion to the local feature size. linear:z,4: four times as long at the high end of z. attr and files: wanted lengths, in proportion.
+    #[arg(long, value_name = "HOW", help_heading = "Size")]
+    pub density: Option<String>,
+    /// Edges at which the surface turns by more than this are kept, and tips; borders are in any case; off for borders alone
+    #[arg(long, value_name = "ANGLE", default_value = "40deg", value_parser = parse_features, help_heading = "Shape")]
+    pub features: Features,
+    /// How far the input may be from the mesh: where it is farther, a vertex is put and kept; off for as it comes [default: half the spacing]
+    #[arg(long, value_name = "D", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Shape")]
+    pub tolerance: Option<Target>,
+    /// Mend what can be without guessing: turn triangles that run the wrong way, separate sheets that touch, cut open what is left
+    #[arg(long, help_heading = "Shape")]
+    pub repair: bool,
+}
+
+/// How vertices find their places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum RemeshRule {
+    /// Push-pull optimization (Ahmed, Guo, Yan et al.)
+    PushPull,
+    /// Low beta, the ratio of the largest circumradius to the shortest edge (Ebeida et al.)
+    WellSpaced,
+    /// Opt-beta: the least ratio of each cell by itself (Ebeida et al.)
+    OptBeta,
+    /// Lloyd's method: to the centroids of the Voronoi cells
+    Lloyd,
+    /// Springs between neighbours (Persson and Strang)
+    #[value(name = "distmesh")]
+    DistMesh,
+}
+
+/// The angle from which on creases are kept; none of borders alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Features(pub Option<f64>);
+
+fn parse_features(text: &str) -> Result<Features, String> {
+    if text == "off" {
+        return Ok(Features(None));
+    }
+    let angle: Option<f64> = text.strip_suffix("deg").unwrap_or(text).parse().ok();
+    let angle = angle.filter(|&angle| angle > 0.0 && angle < 180.0);
+    angle.map(|angle| Features(Some(angle))).ok_or_else(|| "it must be an angle above 0 and below 180, as 40deg, or off".to_owned())
+}
+
+impl RemeshWishes {
+    /// The density's file, if it is one.
+    pub fn density_path(&self) -> Option<&Path> {
+        let words = self.density.as_deref()?;
+        let is_named = ["curvature", "lfs", "linear", "attr"].contains(&words.split(':').next().unwrap_or(words));
+        (!is_named).then_some(Path::new(words))
+    }
+}
+
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  evenly sample bunny.obj -n 5000 -o points.ply\n  evenly sample part.stl --spacing 0.5 --method poisson-disk -o points.csv\n\n\
+                  Columns: x y z, the facet and the barycentric coordinates on it, and the normal."
+)]
+pub struct Sample {
+    /// A triangle mesh, as for remesh; - is stdin
+    pub input: PathBuf,
+    #[command(flatten)]
+    pub wishes: SampleWishes,
+    /// Where the points go: .ply .csv .txt; - is stdout
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// The output's format, ply csv or txt, if its name does not tell
+    #[arg(long, value_parser = parse_cloud_format)]
+    pub format: Option<CloudFormat>,
+    /// Print the run's whole record on stdout, as JSON
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+    #[command(flatten)]
+    pub run: LongArgs,
+}
+
+/// What points on a surface are to be.
+#[derive(Args)]
+#[command(group = ArgGroup::new("size").required(true).args(["n_points", "spacing"]))]
+pub struct SampleWishes {
+    /// How many points, exactly; of poisson-disk about
+    #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
+    pub n_points: Option<usize>,
+    /// The smallest distance of two points, for poisson-disk; else their usual one
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    pub spacing: Option<f64>,
+    /// How they are spread
+    #[arg(long, value_enum, default_value_t = SampleRule::PushPull)]
+    pub method: SampleRule,
+    /// The same seed gives the same points
+    #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
+    pub seed: u64,
+    /// Mend the mesh, as in remesh
+    #[arg(long)]
+    pub repair: bool,
+}
+
+/// How points are spread over a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SampleRule {
+    /// Push-pull optimization: the vertices of a new mesh
+    PushPull,
+    /// Sample elimination by the mesh's neighbourhoods: what the others begin with
+    Eliminate,
+    /// Maximal Poisson-disk sampling, with distances that do not reach through thin parts
+    PoissonDisk,
+    /// Independent uniform points
+    White,
+}
+
+fn parse_cloud_format(text: &str) -> Result<CloudFormat, String> {
+    CloudFormat::from_name(text).ok_or_else(|| "it must be ply, csv or txt".to_owned())
+}

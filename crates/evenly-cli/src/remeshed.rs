@@ -1,0 +1,199 @@
+//! [`remeshed`]: a surface's new mesh as it is wished for, whoever wishes it.
+
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use clap::{Args as _, FromArgMatches as _};
+use evenly::{
+    Attribute, CertificateBreach, DistMeshParams, LloydParams, OptBetaParams, PushPullParams, RemeshMethod, RemeshParams, Remeshed, Report,
+    RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, WellSpacedParams, certificate,
+    expected_vertices, remesh, self_intersections, surface_distance, surface_quality, surface_sizes,
+};
+use evenly_io::read_numbers;
+use serde_json::Value;
+
+use crate::measured::told;
+use crate::method_args::set;
+use crate::remesh_args::RemeshRule;
+pub use crate::remesh_args::RemeshWishes;
+
+/// Parameters, and the flags that hold them.
+const FLAGS: [(&str, &str); 9] = [
+    ("n_points", "n-points"),
+    ("features_deg", "features"),
+    ("error", "density curvature"),
+    ("linear", "density linear"),
+    ("attr", "density attr"),
+    ("min_distance", "min-distance"),
+    ("coverage_radius", "coverage-radius"),
+    ("capacity_tolerance", "capacity-tolerance"),
+    ("max_passes", "iterations"),
+];
+
+/// A new mesh, and what there is to say of it.
+pub struct Made {
+    /// The mesh, and where its vertices lie on the one that was given.
+    pub remeshed: Remeshed,
+    /// What its triangles are worth.
+    pub quality: SurfaceQuality,
+    /// How far it is from the one that was given.
+    pub distance: SurfaceDistance,
+    /// Pairs of triangles that cross each other.
+    pub self_intersections: usize,
+    /// Triangles whose angles are not what the targets imply; none for methods without targets.
+    pub breaches: Vec<CertificateBreach>,
+    /// How it came about.
+    pub report: Report,
+    /// What was asked for.
+    pub parameters: Value,
+}
+
+/// The surface of a mesh.
+///
+/// # Errors
+/// As [`Surface::new`], with the file's name, and the flag that repairs.
+pub fn surface_of(mesh: &TriangleMesh, name: &Path, is_repaired: bool) -> anyhow::Result<Surface> {
+    let surface = if is_repaired { Surface::repaired(mesh) } else { Surface::new(mesh) };
+    surface.map_err(|error| {
+        let text = error.to_string();
+        let way_out = if text.contains("repair") { " (--repair)" } else { "" };
+        anyhow::anyhow!("{}: {text}{way_out}", name.display())
+    })
+}
+
+/// Makes a new mesh; of wishes in words see [`wishes`].
+///
+/// # Errors
+/// As [`remesh`], with the names of flags; `name` is the mesh's.
+pub fn remeshed(surface: &Surface, name: &Path, wishes: &RemeshWishes, run: &mut RunContext) -> anyhow::Result<Made> {
+    let told = |e| told(e, name, &FLAGS);
+    if let Some(spacing) = wishes.spacing.filter(|&spacing| !(spacing > 0.0 && spacing.is_finite())) {
+        bail!("--spacing is {spacing}; it must be positive and finite");
+    }
+    let of_spacing = |spacing: f64| (expected_vertices(surface, &vec![spacing; surface.n_vertices()]).round() as usize).max(4);
+    let mut n_points = wishes.n_points.or(wishes.spacing.map(of_spacing));
+    let mut sizes = Vec::new();
+    if let Some(words) = &wishes.density {
+        let sizing = sizing(words, wishes)?;
+        sizes = surface_sizes(surface, &sizing, n_points).map_err(told)?;
+        n_points = n_points.or(Some((expected_vertices(surface, &sizes).round() as usize).max(4)));
+    }
+    let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
+    let spacing = (2.0 * surface.area() / (3f64.sqrt() * n_points as f64)).sqrt();
+    let method = method(wishes);
+    let defaults = RemeshParams::default();
+    let tolerance = wishes.tolerance.map_or(defaults.tolerance, |target| target.0.map(|length| length / spacing));
+    let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, seed: wishes.seed };
+    let (remeshed, report) = remesh(surface, &params, run).map_err(told)?;
+    let made = Surface::repaired(&remeshed.mesh)?;
+    let breaches = targets(&method).map_or_else(Vec::new, |beta| certificate(&made, beta));
+    Ok(Made {
+        quality: surface_quality(&made),
+        distance: surface_distance(&made, surface),
+        self_intersections: self_intersections(&made).len(),
+        breaches,
+        parameters: serde_json::json!(params),
+        remeshed,
+        report,
+    })
+}
+
+/// The mesh with what its vertices know of the surface as attributes.
+pub fn with_places(remeshed: &Remeshed) -> TriangleMesh {
+    let mut mesh = remeshed.mesh.clone();
+    let own = place_attributes(&remeshed.places);
+    mesh.attributes.retain(|attribute| own.iter().all(|other| other.name != attribute.name));
+    mesh.attributes.extend(own);
+    mesh
+}
+
+/// What points know of the surface: facet, barycentric coordinates, normal.
+pub fn place_attributes(places: &[SurfacePoint]) -> Vec<Attribute> {
+    let column = |name: &str, of: &dyn Fn(&SurfacePoint) -> f64| Attribute { name: name.into(), values: places.iter().map(of).collect() };
+    vec![
+        column("nx", &|place| place.normal[0]),
+        column("ny", &|place| place.normal[1]),
+        column("nz", &|place| place.normal[2]),
+        column("facet", &|place| place.facet as f64),
+        column("bary0", &|place| place.barycentric[0]),
+        column("bary1", &|place| place.barycentric[1]),
+        column("bary2", &|place| place.barycentric[2]),
+    ]
+}
+
+/// The ratio of both radii that a method aims at.
+fn targets(method: &RemeshMethod) -> Option<f64> {
+    match method {
+        RemeshMethod::PushPull(params) => Some(params.coverage_radius? / params.min_distance?),
+        RemeshMethod::WellSpaced(params) => Some(params.beta),
+        _ => None,
+    }
+}
+
+fn method(wishes: &RemeshWishes) -> RemeshMethod {
+    let RemeshWishes { seed, iterations, beta, .. } = *wishes;
+    match wishes.method {
+        RemeshRule::PushPull => {
+            let default = match RemeshMethod::default() {
+                RemeshMethod::PushPull(params) => params,
+                _ => PushPullParams::default(),
+            };
+            let mut params = wishes.preset.map_or(default, |preset| PushPullParams::preset(preset.into()));
+            set(&mut params.min_distance, wishes.min_distance.map(|target| target.0));
+            set(&mut params.coverage_radius, wishes.coverage_radius.map(|target| target.0));
+            set(&mut params.capacity_tolerance, wishes.capacity_tolerance.map(|target| target.0));
+            RemeshMethod::PushPull(PushPullParams { max_passes: iterations, seed, ..params })
+        }
+        RemeshRule::WellSpaced => {
+            let mut params = WellSpacedParams { max_passes: iterations, seed, ..WellSpacedParams::default() };
+            set(&mut params.beta, beta);
+            RemeshMethod::WellSpaced(params)
+        }
+        RemeshRule::OptBeta => {
+            let mut params = OptBetaParams { beta: 0.75, ..OptBetaParams::default() };
+            set(&mut params.beta, beta);
+            set(&mut params.iterations, iterations);
+            RemeshMethod::OptBeta(params)
+        }
+        RemeshRule::Lloyd => {
+            let mut params = LloydParams { seed, ..LloydParams::default() };
+            set(&mut params.iterations, iterations);
+            RemeshMethod::Lloyd(params)
+        }
+        RemeshRule::DistMesh => {
+            let mut params = DistMeshParams { seed, ..DistMeshParams::default() };
+            set(&mut params.iterations, iterations);
+            RemeshMethod::DistMesh(params)
+        }
+    }
+}
+
+/// What `--density` says.
+fn sizing(words: &str, wishes: &RemeshWishes) -> anyhow::Result<SurfaceSizing> {
+    if let Some(path) = wishes.density_path() {
+        return Ok(SurfaceSizing::Given(read_numbers(path).with_context(|| format!("--density {words}"))?));
+    }
+    let (name, value) = words.split_once(':').map_or((words, None), |(name, value)| (name, Some(value)));
+    let number = |text: &str| text.parse::<f64>().map_err(|_| anyhow::anyhow!("--density {words}: {text:?} is no number"));
+    Ok(match (name, value) {
+        ("curvature", error) => SurfaceSizing::Curvature { error: error.map(number).transpose()? },
+        ("lfs", None) => SurfaceSizing::FeatureSize,
+        ("linear", Some(value)) => {
+            let parts = value.split_once(',').and_then(|(axis, ratio)| Some(("xyz".find(axis).filter(|_| axis.len() == 1)?, ratio)));
+            let Some((axis, ratio)) = parts else { bail!("--density {words}: it must be linear:axis,ratio, as linear:z,4") };
+            SurfaceSizing::Linear { axis, ratio: number(ratio)? }
+        }
+        ("attr", Some(name)) => SurfaceSizing::Attribute(name.to_owned()),
+        _ => bail!("--density {words}: it must be curvature[:error], lfs, linear:axis,ratio, attr:NAME, or a file"),
+    })
+}
+
+/// Wishes in the command line's words, as `--n-points=1000`.
+///
+/// # Errors
+/// What the command line says of them.
+pub fn wishes(words: &[String]) -> anyhow::Result<RemeshWishes> {
+    let command = RemeshWishes::augment_args(clap::Command::new("remesh").no_binary_name(true).disable_help_flag(true));
+    let read = || RemeshWishes::from_arg_matches(&command.try_get_matches_from(words)?);
+    read().map_err(|error| crate::plain(&error))
+}

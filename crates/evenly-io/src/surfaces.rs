@@ -1,0 +1,130 @@
+//! Meshes in space from files and into files: Wavefront, Stanford's, stereolithography, Geomview's, glTF. Units are kept.
+
+mod building;
+mod gltf;
+mod lines;
+mod obj;
+mod off;
+mod ply;
+mod stl;
+
+use std::path::Path;
+
+use evenly::TriangleMesh;
+
+use crate::figure::{compared_svg, shaded_figure};
+use crate::file::read_bytes;
+use crate::meshes::encoded;
+use crate::output::write_svg;
+use crate::{Error, MeshFormat, Target};
+
+/// What a file of triangles holds.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TrianglesRead {
+    /// The triangles.
+    pub mesh: TriangleMesh,
+    /// What was changed or left out, in words for the user.
+    pub notes: Vec<String>,
+}
+
+/// A format that is read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    Obj,
+    Ply,
+    Stl,
+    Off,
+    Gltf,
+}
+
+const ENDINGS: [(&str, Kind); 6] =
+    [("obj", Kind::Obj), ("ply", Kind::Ply), ("stl", Kind::Stl), ("off", Kind::Off), ("gltf", Kind::Gltf), ("glb", Kind::Gltf)];
+
+/// Reads triangles. The file's ending tells the format; where it does not, or for `-`, its first bytes do.
+///
+/// Polygons are cut into triangles. Vertices stay as they are, but for those of stereolithography, which are one where their positions are the same.
+///
+/// # Errors
+/// [`Error::Content`] with the file's name, and the line or the number of what is wrong with it; [`Error::Format`] where nothing tells the format.
+pub fn read_triangles(path: &Path) -> Result<TrianglesRead, Error> {
+    let (name, bytes) = read_bytes(path)?;
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    let known = ENDINGS.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known)).map(|&(_, kind)| kind);
+    let kind = known.or_else(|| evident(&bytes)).ok_or_else(|| {
+        let choices = ENDINGS.iter().map(|(name, _)| format!(".{name}")).collect::<Vec<_>>().join(" ");
+        Error::Format { name: name.clone(), problem: "neither its ending nor its first bytes tell a format of meshes", choices }
+    })?;
+    parse(kind, &name, &bytes, path.parent().unwrap_or(Path::new("")))
+}
+
+/// The format that the first bytes tell.
+fn evident(bytes: &[u8]) -> Option<Kind> {
+    let first = lines::Text::new("", bytes).next_line().and_then(|mut line| line.word()).unwrap_or_default();
+    match first {
+        b"ply" => Some(Kind::Ply),
+        b"solid" => Some(Kind::Stl),
+        b"v" | b"vn" | b"vt" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" => Some(Kind::Obj),
+        _ if first.ends_with(b"OFF") => Some(Kind::Off),
+        _ if first.starts_with(b"glTF") || first.starts_with(b"{") => Some(Kind::Gltf),
+        _ if stl::is_binary(bytes) => Some(Kind::Stl),
+        _ => None,
+    }
+}
+
+/// `folder` is where other files lie that this one names.
+fn parse(kind: Kind, name: &str, bytes: &[u8], folder: &Path) -> Result<TrianglesRead, Error> {
+    match kind {
+        Kind::Obj => obj::read(name, bytes),
+        Kind::Ply => ply::read(name, bytes),
+        Kind::Stl => stl::read(name, bytes),
+        Kind::Off => off::read(name, bytes),
+        Kind::Gltf => gltf::read(name, bytes, folder),
+    }
+}
+
+/// Writes triangles. The recipe goes along where the format has room for a comment; attributes in `.ply`, `.vtu` and `.npz`.
+///
+/// # Errors
+/// As [`Target::write`]; for GeoJSON, which is flat, and for a mesh whose parts do not fit together.
+pub fn write_triangles(mesh: &TriangleMesh, format: MeshFormat, recipe: &str, target: &Target) -> Result<(), Error> {
+    check(mesh).map_err(|problem| Error::content(target.name(), problem))?;
+    let recipe = recipe.replace(['\n', '\r'], " ");
+    let bytes = encoded(&mesh.into(), &mesh.vertices, format, &recipe, target, || shaded_figure(mesh, &recipe))?;
+    target.write(&bytes)
+}
+
+/// Draws meshes, shaded, side by side under their captions where there are several. The recipe goes along as a comment.
+///
+/// # Errors
+/// As [`Target::write`]; [`Error::Format`] for a target that holds points.
+pub fn write_triangles_figure(meshes: &[(&str, &TriangleMesh)], recipe: &str, target: &Target) -> Result<(), Error> {
+    let recipe = recipe.replace(['\n', '\r'], " ");
+    let svg = match meshes {
+        [(_, mesh)] => shaded_figure(mesh, &recipe),
+        _ => compared_svg(meshes),
+    };
+    write_svg(svg, &recipe, target)
+}
+
+/// That triangles have vertices, and vertices their attributes.
+fn check(mesh: &TriangleMesh) -> Result<(), String> {
+    let n = mesh.vertices.len();
+    if mesh.triangles.is_empty() {
+        return Err("the mesh has no triangles".into());
+    }
+    if let Some(t) = mesh.triangles.iter().position(|t| t.iter().any(|&v| v >= n)) {
+        return Err(format!("triangle {t} of the mesh has the vertices {:?}, but there are only {n}", mesh.triangles[t]));
+    }
+    match mesh.attributes.iter().find(|attribute| attribute.values.len() != n) {
+        Some(attribute) => Err(format!("the attribute {:?} has {} values for {n} vertices", attribute.name, attribute.values.len())),
+        None => Ok(()),
+    }
+}
+
+/// Triangles in space drawn as SVG, seen obliquely from above.
+pub fn triangles_svg(mesh: &TriangleMesh) -> String {
+    shaded_figure(mesh, "")
+}
+
+#[cfg(test)]
+mod tests;

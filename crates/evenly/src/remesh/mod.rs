@@ -1,0 +1,192 @@
+//! Remeshing: a surface with exactly as many vertices as are wanted, spread evenly, and by default without an obtuse triangle.
+//!
+//! Ahmed, Guo, Yan, Franceschi, Zhang and Deussen, "A Simple Push-Pull Algorithm for Blue-Noise Sampling", IEEE Transactions on Visualization
+//! and Computer Graphics 23(12), 2017, doi 10.1109/TVCG.2016.2641963, sections 4.3 and 5.3.
+//!
+//! What differs from the paper, and why:
+//! - There is no restricted Voronoi diagram, but one mesh over the points from the start to the end, whose edges are flipped where the angles across exceed pi. Its
+//!   topology is the surface's from the start, and stays.
+//! - The start is not a random set: long edges of the surface are split, and short ones collapsed, until the number is right.
+//! - Points land on the nearest place to which a walk along the surface leads, never on another sheet; a move that would turn a triangle away from the surface is not made.
+//! - Creases and borders are kept: the points along them come first, and stay.
+//! - Where the wanted spacing varies it counts a triangle at a time, so that the bounds on angles hold as they do where it is uniform.
+//!
+//! Cost: O(n) passes of about a microsecond a visit, some 60 visits a point, on one thread. It does not promise that the targets are reached, but the report says so.
+
+mod anchors;
+mod chains;
+mod draft;
+mod eliminate;
+mod live;
+mod method;
+mod moves;
+mod polish;
+mod sample;
+mod settle;
+mod shape;
+mod stars;
+mod start;
+
+use serde::Serialize;
+
+use self::live::{LiveSurface, Vertex};
+pub use self::method::RemeshMethod;
+pub use self::sample::{SurfaceSampling, sample_surface};
+use self::settle::settle;
+use self::start::start;
+use crate::error::Error;
+use crate::run::{Phase, Report, RunContext};
+use crate::surface::{Attribute, Features, Place, Surface, TriangleMesh};
+
+/// What [`remesh`] can be told.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RemeshParams {
+    /// How many vertices the mesh is to have, exactly; 4 at least.
+    pub n_points: usize,
+    /// By which rule they find their places.
+    pub method: RemeshMethod,
+    /// Edges at which the surface turns by more than this are kept, as are borders in any case; in (0, 180). `None` for borders alone.
+    pub features_deg: Option<f64>,
+    /// Where a vertex of the surface is farther from the mesh than this, in spacings, a vertex is put there and stays; `None` for nowhere.
+    pub tolerance: Option<f64>,
+    /// How long edges are to be, in proportion, at each vertex of the surface; empty where they are to be alike.
+    #[serde(skip)]
+    pub sizes: Vec<f64>,
+    /// The start and the order of visits depend on it.
+    pub seed: u64,
+}
+
+impl Default for RemeshParams {
+    fn default() -> Self {
+        Self { n_points: 1000, method: RemeshMethod::default(), features_deg: Some(40.0), tolerance: Some(0.5), sizes: Vec::new(), seed: 0 }
+    }
+}
+
+impl RemeshParams {
+    /// Checks the parameters, as [`remesh`] does before it begins.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] for a value outside its range, or sizes that are not positive, or not as many as the surface has vertices.
+    pub fn validate(&self, surface: &Surface) -> Result<(), Error> {
+        let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
+        if self.n_points < 4 || self.n_points > crate::MAX_POINTS {
+            return invalid("n_points", self.n_points.to_string(), "4 or more, and at most 40 million");
+        }
+        if let Some(angle) = self.features_deg.filter(|&angle| !(angle > 0.0 && angle < 180.0)) {
+            return invalid("features_deg", angle.to_string(), "more than 0, and less than 180");
+        }
+        if let Some(tolerance) = self.tolerance.filter(|&tolerance| !(tolerance > 0.0 && tolerance.is_finite())) {
+            return invalid("tolerance", tolerance.to_string(), "positive and finite");
+        }
+        if !self.sizes.is_empty() && self.sizes.len() != surface.n_vertices() {
+            return invalid("sizes", format!("{} numbers", self.sizes.len()), "as many as the surface has vertices, or none");
+        }
+        if let Some(size) = self.sizes.iter().find(|&&size| !(size > 0.0 && size.is_finite())) {
+            return invalid("sizes", size.to_string(), "positive and finite");
+        }
+        self.method.validate()
+    }
+}
+
+/// A surface's new mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remeshed {
+    /// Vertices in input units, triangles that run as the surface's do, and what the surface's vertices carry, interpolated.
+    pub mesh: TriangleMesh,
+    /// Where each vertex lies on the mesh that was given.
+    pub places: Vec<SurfacePoint>,
+}
+
+/// A place on a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// In input units.
+    pub position: [f64; 3],
+    /// The triangle of the given mesh on which it lies.
+    pub facet: usize,
+    /// The weights of that triangle's corners.
+    pub barycentric: [f64; 3],
+    /// The surface's unit normal, rounded between creases.
+    pub normal: [f64; 3],
+}
+
+impl SurfacePoint {
+    fn new(surface: &Surface, features: &Features, place: &Place) -> Self {
+        Self {
+            position: surface.frame.outward(place.at),
+            facet: surface.faces[place.face as usize],
+            barycentric: place.weights,
+            normal: features.normal(place).to_array(),
+        }
+    }
+}
+
+impl Vertex {
+    fn shown(&self, surface: &Surface) -> SurfacePoint {
+        SurfacePoint {
+            position: surface.frame.outward(self.at),
+            facet: surface.faces[self.face as usize],
+            barycentric: self.weights,
+            normal: self.normal.to_array(),
+        }
+    }
+}
+
+/// Makes a new mesh of a surface.
+///
+/// Where the targets are not reached, the report says so, and the mesh is in the best state that was seen.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] as [`RemeshParams::validate`] has it, and for fewer points than the surface's shape and features need.
+///
+/// # Example
+/// ```
+/// use evenly::{RemeshParams, RunContext, Surface, TriangleMesh, remesh, surface_quality};
+///
+/// // An octahedron, of which nothing is kept but its shape.
+/// let vertices = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+/// let triangles = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]];
+/// let surface = Surface::new(&TriangleMesh { vertices, triangles, attributes: Vec::new() })?;
+/// let params = RemeshParams { n_points: 500, ..RemeshParams::default() };
+/// let (remeshed, report) = remesh(&surface, &params, &mut RunContext::default())?;
+/// assert_eq!(remeshed.mesh.vertices.len(), 500);
+/// assert!(surface_quality(&Surface::new(&remeshed.mesh)?).min_angle_deg > 25.0);
+/// # Ok::<(), evenly::Error>(())
+/// ```
+pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) -> Result<(Remeshed, Report), Error> {
+    params.validate(surface)?;
+    let mut report = Report::new(params.method.name(), params.n_points);
+    let ones;
+    let sizes = if params.sizes.is_empty() {
+        ones = vec![1.0; surface.n_vertices()];
+        &ones
+    } else {
+        &params.sizes
+    };
+    let features = Features::new(surface, params.features_deg, start::spacing(surface, sizes, params.n_points));
+
+    // 1. Exactly so many vertices, with the surface's topology.
+    run.enter(Phase::Triangulate);
+    let start = start(surface, &features, sizes, params.n_points, params.seed)?;
+    report.triangulations = 1;
+
+    // 2. They move until all is as it should be.
+    let live = settle(LiveSurface::new(surface, &features, sizes, start), params, run, &mut report)?;
+    Ok((finished(surface, &live), report))
+}
+
+/// The mesh as it is given back.
+fn finished(surface: &Surface, live: &LiveSurface) -> Remeshed {
+    let vertices = live.vertices();
+    let places: Vec<SurfacePoint> = vertices.iter().map(|vertex| vertex.shown(surface)).collect();
+    let attribute = |attribute: &Attribute| Attribute {
+        name: attribute.name.clone(),
+        values: vertices.iter().map(|vertex| surface.attribute(attribute, vertex.face as usize, vertex.weights)).collect(),
+    };
+    let mesh = TriangleMesh {
+        vertices: places.iter().map(|place| place.position).collect(),
+        triangles: live.half_edges().triangles().map(|t| t.map(|v| v as usize)).collect(),
+        attributes: surface.attributes().iter().map(attribute).collect(),
+    };
+    Remeshed { mesh, places }
+}

@@ -1,0 +1,106 @@
+//! The last bad triangles: their vertices go where the angles around are best, and edges are flipped where that makes angles better.
+
+use glam::DVec3;
+
+use super::live::{LiveSurface, SurfaceBuffer, Vertex};
+use crate::points::Random;
+use crate::sweep::Ground;
+use crate::triangulation::{BORDER, Spoke};
+
+/// Angles are bad above the one and below the other, in degrees.
+const LARGEST_DEG: f64 = 89.5;
+const SMALLEST_DEG: f64 = 32.0;
+/// Rounds over all that is bad, and over what is around it.
+const ROUNDS: usize = 30;
+/// The first step, in spacings, how often it is halved, and the directions that are tried each time.
+const STEP: f64 = 0.2;
+const HALVINGS: usize = 5;
+const DIRECTIONS: usize = 6;
+
+/// How bad a triangle is: 0 if it is not.
+fn badness(a: DVec3, b: DVec3, c: DVec3) -> f64 {
+    let angle = |at: DVec3, u: DVec3, v: DVec3| libm::atan2((u - at).cross(v - at).length(), (u - at).dot(v - at)).to_degrees();
+    let of = |angle: f64| (angle - LARGEST_DEG).max(0.0).powi(2) + (SMALLEST_DEG - angle).max(0.0).powi(2);
+    of(angle(a, b, c)) + of(angle(b, c, a)) + of(angle(c, a, b))
+}
+
+impl LiveSurface<'_> {
+    /// Makes bad triangles better as long as that goes; no other comes to be worse than it makes up for.
+    pub(super) fn polish(&mut self, seed: u64) {
+        let mut random = Random::new(seed, 1 << 40);
+        let mut buffer = SurfaceBuffer::default();
+        for _ in 0..ROUNDS {
+            let bad: Vec<u32> = (0..self.mesh.n_half_edges() as u32 / 3).filter(|&t| self.badness_of(t) > 0.0).collect();
+            if bad.is_empty() {
+                return;
+            }
+            let mut vertices = Vec::new();
+            for t in bad {
+                for h in 3 * t..3 * t + 3 {
+                    self.flip_if_better(h);
+                    self.walk(self.mesh.origin(h), &mut buffer.moving);
+                    vertices.push(self.mesh.origin(h));
+                    vertices.extend(buffer.moving.iter().map(|spoke| spoke.vertex));
+                }
+            }
+            vertices.sort_unstable();
+            vertices.dedup();
+            let mut has_moved = false;
+            for v in vertices.into_iter().filter(|&v| !self.is_fixed(v)).collect::<Vec<_>>() {
+                has_moved |= self.find_better(v, &mut random, &mut buffer);
+            }
+            if !has_moved {
+                return;
+            }
+        }
+    }
+
+    fn badness_of(&self, t: u32) -> f64 {
+        let [a, b, c] = [0, 1, 2].map(|k| self.vertex(self.mesh.origin(3 * t + k)).at);
+        badness(a, b, c)
+    }
+
+    /// How bad the triangles around a vertex are, if it is at a place.
+    fn badness_around(&self, at: DVec3, ring: &[Spoke<DVec3>]) -> f64 {
+        let corner = |spoke: &Spoke<DVec3>| self.vertex(spoke.vertex).at;
+        let all = ring.iter().enumerate().filter(|(_, spoke)| spoke.half_edge != BORDER);
+        all.map(|(k, spoke)| badness(at, corner(spoke), corner(ring.get(k + 1).unwrap_or(&ring[0])))).sum()
+    }
+
+    /// Looks for a better place in steps that become smaller. Whether there was one.
+    fn find_better(&self, v: u32, random: &mut Random, buffer: &mut SurfaceBuffer) -> bool {
+        let mut has_moved = false;
+        let mut step = STEP * self.local_spacing(v);
+        for _ in 0..HALVINGS {
+            for _ in 0..DIRECTIONS {
+                let ring = &mut buffer.moving;
+                self.walk(v, ring);
+                let from: Vertex = self.vertex(v);
+                let before = self.badness_around(from.at, ring);
+                if before == 0.0 {
+                    return has_moved;
+                }
+                let by = step * DVec3::new(random.signed(), random.signed(), random.signed());
+                let to = self.land(&from, from.at + by);
+                if self.badness_around(to.at, ring) < before && self.step(v, by, ring) {
+                    has_moved = true;
+                }
+            }
+            step *= 0.5;
+        }
+        has_moved
+    }
+
+    fn flip_if_better(&self, h: u32) {
+        let t = self.mesh.twin(h);
+        if t == BORDER {
+            return;
+        }
+        let corners = self.mesh.quadrilateral(h);
+        let [p, q, r, s] = corners.map(|v| self.vertex(v).at);
+        let is_better = badness(s, q, r) + badness(r, p, s) < badness(p, q, r) + badness(q, p, s);
+        if is_better && self.can_flip(corners) {
+            self.flip(h);
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Vertices find their places.
+
+use super::RemeshParams;
+use super::live::LiveSurface;
+use super::method::RemeshMethod;
+use crate::error::Error;
+use crate::optimize::{OptBetaParams, PushPull, PushPullParams};
+use crate::points::Random;
+use crate::run::{Outcome, Report, RunContext};
+use crate::star::Rule;
+use crate::sweep::{Ending, Ground as _, Order, Plan, Sweep};
+
+/// In the first passes triangles change much, and with them the area that chords enclose: the spacing is taken anew after each of these.
+const RENEWALS: [usize; 7] = [1, 2, 4, 8, 12, 20, 30];
+/// After so many passes the last restless vertices are left to themselves: passes a stage, and the parts of each move that are made in them.
+const EVEN_PASSES: usize = 130;
+const STAGE: usize = 30;
+const PARTS: [f64; 3] = [0.6, 0.8, 1.0];
+/// How far they are pushed to the side between stages, in spacings.
+const KICK: f64 = 0.1;
+/// In so many stages only those that were blocked are.
+const GENTLE_STAGES: usize = 3;
+/// So often vertices are put where the surface stands out.
+const ANCHORINGS: usize = 2;
+/// Passes at most, if none are given; as many again after each time.
+const MOST_PASSES: usize = 1000;
+
+/// Moves vertices by the wanted method, and says in the report how that has ended.
+pub(super) fn settle<'a>(
+    live: LiveSurface<'a>,
+    params: &RemeshParams,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> Result<LiveSurface<'a>, Error> {
+    let mut sweep = Sweep::new(live);
+    find_places(&mut sweep, params, run, report)?;
+    // Where the surface stands out, a vertex stays, and the others find their places around it.
+    for _ in 0..ANCHORINGS {
+        let n_anchored = params.tolerance.filter(|_| !run.is_cancelled()).map_or(0, |tolerance| sweep.ground_mut().anchor(tolerance));
+        if n_anchored == 0 {
+            break;
+        }
+        sweep.change_rule(report.iterations);
+        find_places(&mut sweep, params, run, report)?;
+    }
+    let mut live = sweep.into_mesh();
+    // What is fixed does not move, though it may be too near to others that are.
+    let targets = match params.method {
+        RemeshMethod::PushPull(targets) => Some(targets),
+        RemeshMethod::WellSpaced(wanted) => Some(wanted.targets()),
+        _ => None,
+    };
+    if report.outcome == Outcome::Converged && targets.is_some_and(|targets| !live.meets(&targets)) {
+        report.outcome = Outcome::IterationLimit;
+        report.notes.push("vertices that stay where they are, on creases, borders and tips, keep the targets from being reached".into());
+    } else {
+        report.note_limit();
+    }
+    // Beside creases some triangles may still be obtuse, though they need not be.
+    if report.outcome == Outcome::IterationLimit && targets.is_some() {
+        live.polish(params.seed);
+    }
+    Ok(live)
+}
+
+fn find_places(sweep: &mut Sweep<LiveSurface>, params: &RemeshParams, run: &mut RunContext, report: &mut Report) -> Result<(), Error> {
+    match params.method {
+        RemeshMethod::PushPull(targets) => push_and_pull(sweep, &targets, params.seed, run, report)?,
+        RemeshMethod::WellSpaced(wanted) => push_and_pull(sweep, &wanted.targets(), params.seed, run, report)?,
+        RemeshMethod::Lloyd(wanted) => relax(sweep, &wanted.rule(), wanted.iterations, params.seed, run, report),
+        RemeshMethod::DistMesh(wanted) => relax(sweep, &wanted.rule(), wanted.iterations, params.seed, run, report),
+        RemeshMethod::OptBeta(wanted) => to_least_ratio(sweep, &wanted, params.seed, run, report)?,
+    }
+    Ok(())
+}
+
+fn push_and_pull(
+    sweep: &mut Sweep<LiveSurface>,
+    targets: &PushPullParams,
+    seed: u64,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> Result<(), Error> {
+    let rule = targets.rule();
+    let begin = report.iterations;
+    let max_passes = begin + targets.max_passes.unwrap_or(MOST_PASSES);
+    let plan = Plan { schedule: targets.schedule, keeps_best: true, ..Plan::of_passes(max_passes, seed) };
+    // 1. All rules, while most vertices find their places.
+    let mut ending = renew(sweep, &rule, &plan, run, report);
+    if ending == Ending::PassLimit {
+        ending = sweep.run(&rule, &Plan { max_passes: max_passes.min(begin + EVEN_PASSES), ..plan }, run, report);
+    }
+    // 2. In narrow folds a few may not come to rest: without the rule of areas, with moves of other sizes, and after a push to the side they do.
+    let mut n_stages = 0;
+    while ending == Ending::PassLimit && report.iterations < max_passes {
+        let relaxation = PARTS[n_stages % PARTS.len()] * rule.relaxation;
+        let capacity_tolerance = if rule.min_distance.or(rule.coverage_radius).is_some() { None } else { rule.capacity_tolerance };
+        let stage = PushPull { relaxation, capacity_tolerance, ..rule };
+        ending = sweep.run(&stage, &Plan { max_passes: max_passes.min(report.iterations + STAGE), ..plan }, run, report);
+        if ending == Ending::PassLimit && report.iterations < max_passes {
+            sweep.ground_mut().kick(KICK, n_stages >= GENTLE_STAGES, &mut Random::new(seed, n_stages as u64));
+        }
+        n_stages += 1;
+    }
+    report.outcome = outcome(ending, Outcome::IterationLimit);
+    if report.outcome == Outcome::IterationLimit {
+        sweep.return_to_best()?;
+    }
+    Ok(())
+}
+
+fn relax(sweep: &mut Sweep<LiveSurface>, rule: &impl Rule, n_passes: usize, seed: u64, run: &mut RunContext, report: &mut Report) {
+    let plan = Plan::of_passes(report.iterations + n_passes, seed);
+    let mut ending = renew(sweep, rule, &plan, run, report);
+    if ending == Ending::PassLimit && report.iterations < plan.max_passes {
+        ending = sweep.run(rule, &plan, run, report);
+    }
+    report.outcome = outcome(ending, Outcome::IterationsDone);
+}
+
+/// Sweeps by rows until the ratio is reached, and keeps the state in which it is least.
+fn to_least_ratio(
+    sweep: &mut Sweep<LiveSurface>,
+    wanted: &OptBetaParams,
+    seed: u64,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> Result<(), Error> {
+    let rule = wanted.rule();
+    let end = report.iterations + wanted.iterations;
+    let mut best = (sweep.ground_mut().beta(), sweep.ground_mut().state());
+    report.energy.push(best.0);
+    report.outcome = loop {
+        if best.0 <= wanted.beta {
+            break Outcome::Converged;
+        }
+        if report.iterations >= end {
+            break Outcome::IterationLimit;
+        }
+        let plan = Plan { order: Order::Rows, max_passes: report.iterations + 1, ..Plan::of_passes(end, seed) };
+        if sweep.run(&rule, &plan, run, report) == Ending::Cancelled {
+            break Outcome::Cancelled;
+        }
+        let reached = sweep.ground_mut().beta();
+        report.energy.push(reached);
+        if reached < best.0 {
+            best = (reached, sweep.ground_mut().state());
+        }
+    };
+    sweep.ground_mut().restore(best.1)
+}
+
+/// The first passes, with the spacing taken anew.
+fn renew(sweep: &mut Sweep<LiveSurface>, rule: &impl Rule, plan: &Plan, run: &mut RunContext, report: &mut Report) -> Ending {
+    let (begin, mut ending) = (report.iterations, Ending::PassLimit);
+    for max_passes in RENEWALS.map(|passes| begin + passes).into_iter().take_while(|&passes| passes <= plan.max_passes) {
+        ending = sweep.run(rule, &Plan { max_passes, keeps_best: false, ..*plan }, run, report);
+        if ending == Ending::Cancelled {
+            return ending;
+        }
+        sweep.ground_mut().renew_spacing();
+        sweep.change_rule(report.iterations);
+        ending = Ending::PassLimit;
+    }
+    ending
+}
+
+fn outcome(ending: Ending, otherwise: Outcome) -> Outcome {
+    match ending {
+        Ending::Converged => Outcome::Converged,
+        Ending::Cancelled => Outcome::Cancelled,
+        Ending::PassLimit | Ending::Diverging | Ending::Stuck => otherwise,
+    }
+}

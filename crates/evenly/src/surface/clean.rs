@@ -1,0 +1,80 @@
+//! What is done to triangles before anything is asked of them: positions welded, and faces dropped that are none.
+
+use std::collections::{HashMap, HashSet};
+
+use super::triangle_mesh::TriangleMesh;
+use crate::error::Error;
+
+/// Triangles between distinct positions, none twice.
+pub(super) struct Clean {
+    /// For each vertex the given one.
+    pub sources: Vec<usize>,
+    pub triangles: Vec<[u32; 3]>,
+    /// For each triangle the given one.
+    pub faces: Vec<usize>,
+    pub notes: Vec<String>,
+}
+
+/// Welds equal positions, and drops triangles that have two corners in one place or are there twice.
+///
+/// # Errors
+/// [`Error::InvalidMesh`] for coordinates that are not finite, corners that do not exist, and where no triangle is left.
+pub(super) fn clean(mesh: &TriangleMesh) -> Result<Clean, Error> {
+    if let Some((v, p)) = mesh.vertices.iter().enumerate().find(|(_, p)| !p.iter().all(|x| x.is_finite())) {
+        return Err(Error::InvalidMesh(format!("vertex {v} is ({}, {}, {}), which is not finite", p[0], p[1], p[2])));
+    }
+    let n = mesh.vertices.len();
+    if n >= u32::MAX as usize / 8 || mesh.triangles.len() >= u32::MAX as usize / 8 {
+        return Err(Error::InvalidMesh(format!("{n} vertices and {} triangles are too many", mesh.triangles.len())));
+    }
+    if let Some(attribute) = mesh.attributes.iter().find(|attribute| attribute.values.len() != n) {
+        let text = format!("the attribute {:?} has {} values for {n} vertices", attribute.name, attribute.values.len());
+        return Err(Error::InvalidMesh(text));
+    }
+    if let Some((t, corners)) = mesh.triangles.iter().enumerate().find(|(_, corners)| corners.iter().any(|&v| v >= n)) {
+        return Err(Error::InvalidMesh(format!("triangle {t} has the corners {corners:?}, but there are only {n} vertices")));
+    }
+    let mut first_at: HashMap<[u64; 3], usize> = HashMap::with_capacity(n);
+    // Adding 0 makes one zero of both.
+    let welded: Vec<usize> =
+        mesh.vertices.iter().enumerate().map(|(v, p)| *first_at.entry(p.map(|x| (x + 0.0).to_bits())).or_insert(v)).collect();
+    let n_welded = n - first_at.len();
+
+    let mut vertex_of = vec![u32::MAX; n];
+    let (mut sources, mut triangles, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+    let mut seen = HashSet::with_capacity(mesh.triangles.len());
+    let (mut n_collapsed, mut n_double) = (0, 0);
+    for (t, corners) in mesh.triangles.iter().enumerate() {
+        let corners = corners.map(|v| welded[v]);
+        let mut sorted = corners;
+        sorted.sort_unstable();
+        if sorted[0] == sorted[1] || sorted[1] == sorted[2] {
+            n_collapsed += 1;
+            continue;
+        }
+        if !seen.insert(sorted) {
+            n_double += 1;
+            continue;
+        }
+        triangles.push(corners.map(|v| {
+            if vertex_of[v] == u32::MAX {
+                vertex_of[v] = sources.len() as u32;
+                sources.push(v);
+            }
+            vertex_of[v]
+        }));
+        faces.push(t);
+    }
+    if triangles.is_empty() {
+        return Err(Error::InvalidMesh("the mesh has no triangle with three different corners".into()));
+    }
+    let n_unused = first_at.len() - sources.len();
+    let notes = [
+        (n_welded, "vertices at the place of another were welded to it"),
+        (n_collapsed, "triangles with two corners in one place were dropped"),
+        (n_double, "triangles with the same corners as another were dropped"),
+        (n_unused, "vertices without a triangle were dropped"),
+    ];
+    let notes = notes.into_iter().filter(|&(n, _)| n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+    Ok(Clean { sources, triangles, faces, notes })
+}

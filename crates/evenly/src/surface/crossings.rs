@@ -1,0 +1,64 @@
+//! Where a surface runs through itself: exact tests of all triangles that may meet.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::Surface;
+use super::bvh::{Bounds, Bvh};
+use crate::predicates::orientation;
+
+/// The pairs of triangles that cross each other, by their numbers in the surface. Neighbours that only share their edge or corner do not, nor do triangles that
+/// touch or lie in one plane.
+pub fn self_intersections(surface: &Surface) -> Vec<[usize; 2]> {
+    let n = surface.n_triangles();
+    let bounds: Vec<Bounds> = (0..n).map(|t| Bounds::of(&surface.corners(t))).collect();
+    let tree = Bvh::new(&bounds);
+    let crossed_by = |t: usize| {
+        let mut others = Vec::new();
+        tree.meeting(bounds[t], |other| {
+            if other as usize > t && do_cross(surface, t, other as usize) {
+                others.push([t, other as usize]);
+            }
+        });
+        others.sort_unstable();
+        others
+    };
+    (0..n).into_par_iter().flat_map_iter(crossed_by).collect()
+}
+
+fn do_cross(surface: &Surface, a: usize, b: usize) -> bool {
+    let places = [a, b].map(|t| surface.corners(t));
+    // A vertex that was split is two at one place.
+    let is_shared = |side: usize, k: usize| places[1 - side].contains(&places[side][k]);
+    let crosses = |side: usize| {
+        let sides = [[0, 1], [1, 2], [2, 0]];
+        // An edge with a shared end only touches there.
+        { sides }.into_iter().any(|[from, to]| {
+            !is_shared(side, from) && !is_shared(side, to) && do_pierce([places[side][from], places[side][to]], places[1 - side])
+        })
+    };
+    crosses(0) || crosses(1)
+}
+
+/// Whether a segment goes through the inside of a triangle or its edges, from one side to the other.
+fn do_pierce([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+    let (above, below) = (orientation(a, b, c, p), orientation(a, b, c, q));
+    if above == 0.0 || below == 0.0 || (above > 0.0) == (below > 0.0) {
+        return false;
+    }
+    let sides = [orientation(p, q, a, b), orientation(p, q, b, c), orientation(p, q, c, a)];
+    sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_segment_pierces_what_it_goes_through_and_nothing_beside() {
+        let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let through = |x: f64, y: f64| do_pierce([DVec3::new(x, y, -1.0), DVec3::new(x, y, 1.0)], triangle);
+        assert!(through(0.25, 0.25) && through(0.5, 0.25) && !through(0.75, 0.5) && !through(-0.1, 0.5));
+        assert!(!do_pierce([DVec3::new(0.2, 0.2, 0.0), DVec3::new(0.2, 0.2, 1.0)], triangle));
+    }
+}

@@ -1,0 +1,274 @@
+//! Triangle meshes in space: a [`Surface`] is one that has been checked, with all that is asked of it: its features, the way along it, distances, sizes.
+
+mod bvh;
+mod clean;
+mod crossings;
+mod distance;
+mod feature_size;
+mod features;
+mod flatten;
+mod manifold;
+mod poisson_disk;
+mod quality;
+mod sizing;
+mod triangle_mesh;
+mod walk;
+
+use glam::DVec3;
+
+pub use crossings::self_intersections;
+pub(crate) use distance::Facets;
+pub use distance::{SurfaceDistance, surface_distance};
+pub(crate) use features::{Chain, Features};
+pub(crate) use poisson_disk::{poisson_disk, white};
+pub use quality::{CertificateBreach, SurfaceQuality, certificate, surface_quality};
+pub use sizing::{SurfaceSizing, expected_vertices, surface_sizes};
+pub use triangle_mesh::{Attribute, TriangleMesh};
+pub(crate) use walk::Place;
+
+use self::clean::clean;
+use self::flatten::mend_flat;
+use self::manifold::{manifold, split_fans};
+use crate::error::Error;
+use crate::triangulation::{BORDER, HalfEdges, prev};
+
+/// An oriented manifold of triangles, closed or with borders, of any genus and in any number of parts.
+///
+/// Inside it lies around the origin, scaled by a power of two, so that neither an offset nor the units cost digits.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    pub(crate) frame: Frame,
+    pub(crate) points: Vec<DVec3>,
+    pub(crate) half_edges: HalfEdges,
+    /// Of the triangles; zero for one without area.
+    pub(crate) normals: Vec<DVec3>,
+    /// For each vertex the given one.
+    sources: Vec<usize>,
+    /// For each triangle the given one.
+    pub(crate) faces: Vec<usize>,
+    n_given: usize,
+    attributes: Vec<Attribute>,
+    notes: Vec<String>,
+}
+
+/// How input units are turned into those inside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Frame {
+    centre: DVec3,
+    /// A power of two.
+    scale: f64,
+}
+
+impl Frame {
+    fn around(points: impl Iterator<Item = DVec3> + Clone) -> Self {
+        let low = points.clone().fold(DVec3::INFINITY, DVec3::min);
+        let high = points.fold(DVec3::NEG_INFINITY, DVec3::max);
+        // Halves, lest the sum overflows.
+        let (centre, half) = (0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low);
+        let longest = half.max_element();
+        Self { centre, scale: if longest > 0.0 { 2f64.powi(libm::ilogb(longest).clamp(-1020, 1020)) } else { 1.0 } }
+    }
+
+    pub fn inward(&self, p: [f64; 3]) -> DVec3 {
+        (DVec3::from(p) - self.centre) / self.scale
+    }
+
+    pub fn outward(&self, p: DVec3) -> [f64; 3] {
+        (p * self.scale + self.centre).to_array()
+    }
+
+    pub fn length_outward(&self, length: f64) -> f64 {
+        length * self.scale
+    }
+
+    pub fn length_inward(&self, length: f64) -> f64 {
+        length / self.scale
+    }
+}
+
+impl Surface {
+    /// Checks a mesh. Positions are welded, faces dropped that have two corners in one place or are there twice, and vertices split at which parts touch; what was done
+    /// [`notes`](Self::notes) say.
+    ///
+    /// # Errors
+    /// [`Error::InvalidMesh`] for coordinates that are not finite, corners that do not exist, no triangle at all, edges with more than two triangles, and
+    /// neighbours that do not agree on which side is outside.
+    ///
+    /// # Example
+    /// ```
+    /// use evenly::{Surface, TriangleMesh};
+    ///
+    /// let vertices = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    /// let surface = Surface::new(&TriangleMesh { vertices, triangles, attributes: Vec::new() })?;
+    /// assert!(surface.is_closed() && surface.euler_characteristic() == 2);
+    /// # Ok::<(), evenly::Error>(())
+    /// ```
+    pub fn new(mesh: &TriangleMesh) -> Result<Self, Error> {
+        Self::checked(mesh, false)
+    }
+
+    /// The same, with repair: triangles are turned where neighbours run the other way, sheets that touch along an edge are separated, and what cannot be told apart
+    /// is cut open there.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), but for what is repaired.
+    pub fn repaired(mesh: &TriangleMesh) -> Result<Self, Error> {
+        Self::checked(mesh, true)
+    }
+
+    fn checked(mesh: &TriangleMesh, is_repaired: bool) -> Result<Self, Error> {
+        let mut clean = clean(mesh)?;
+        let given = clean.sources.iter().map(|&v| DVec3::from(mesh.vertices[v]));
+        let frame = Frame::around(given);
+        let points: Vec<DVec3> = clean.sources.iter().map(|&v| frame.inward(mesh.vertices[v])).collect();
+        let (mut half_edges, made_notes) = manifold(&clean, &points, is_repaired)?;
+        let mut notes = std::mem::take(&mut clean.notes);
+        notes.extend(made_notes);
+        let n_flat = mend_flat(&mut half_edges, &mut clean.faces, &points);
+        if n_flat > 0 {
+            notes.push(format!("{n_flat} triangles without area were mended by flips, or dropped at a border"));
+        }
+        let vertices = split_fans(&mut half_edges, points.len());
+        if vertices.len() > points.len() {
+            notes.push(format!("{} vertices at which parts touch were split", vertices.len() - points.len()));
+        }
+        let points: Vec<DVec3> = vertices.iter().map(|&v| points[v as usize]).collect();
+        let sources = vertices.iter().map(|&v| clean.sources[v as usize]).collect();
+        if half_edges.n_triangles() == 0 {
+            return Err(Error::InvalidMesh("no triangle of the mesh has an area".into()));
+        }
+        let mut surface = Self {
+            frame,
+            points,
+            half_edges,
+            normals: Vec::new(),
+            sources,
+            faces: clean.faces,
+            n_given: mesh.vertices.len(),
+            attributes: mesh.attributes.clone(),
+            notes,
+        };
+        surface.normals = (0..surface.n_triangles()).map(|t| surface.normal(t).normalize_or_zero()).collect();
+        Ok(surface)
+    }
+
+    /// What was done to the mesh that was given, in plain words.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// How many vertices there are, split ones counted by their parts.
+    pub fn n_vertices(&self) -> usize {
+        self.points.len()
+    }
+
+    /// How many triangles.
+    pub fn n_triangles(&self) -> usize {
+        self.half_edges.n_triangles()
+    }
+
+    /// How many edges have a triangle on one side only.
+    pub fn n_border_edges(&self) -> usize {
+        self.half_edges.twin.iter().filter(|&&twin| twin == BORDER).count()
+    }
+
+    /// Whether there is no border.
+    pub fn is_closed(&self) -> bool {
+        self.n_border_edges() == 0
+    }
+
+    /// Vertices less edges plus triangles: 2 for a sphere, 2 less for each handle, 1 less for each hole.
+    pub fn euler_characteristic(&self) -> i64 {
+        let n_edges = (self.half_edges.origin.len() + self.n_border_edges()) / 2;
+        let n_used = self.half_edges.outgoing(self.n_vertices()).iter().filter(|&&h| h != BORDER).count();
+        n_used as i64 - n_edges as i64 + self.n_triangles() as i64
+    }
+
+    /// How many connected parts there are.
+    pub fn n_components(&self) -> usize {
+        let mut seen = vec![false; self.n_triangles()];
+        let mut n = 0;
+        for seed in 0..seen.len() {
+            if seen[seed] {
+                continue;
+            }
+            n += 1;
+            seen[seed] = true;
+            let mut stack = vec![seed];
+            while let Some(t) = stack.pop() {
+                for h in 3 * t..3 * t + 3 {
+                    let twin = self.half_edges.twin[h];
+                    if twin != BORDER && !std::mem::replace(&mut seen[twin as usize / 3], true) {
+                        stack.push(twin as usize / 3);
+                    }
+                }
+            }
+        }
+        n
+    }
+
+    /// The area, in the square of input units.
+    pub fn area(&self) -> f64 {
+        let unit = self.frame.length_outward(1.0);
+        self.inner_area() * unit * unit
+    }
+
+    /// The length of the bounding box's diagonal, in input units.
+    pub fn diagonal(&self) -> f64 {
+        let low = self.points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = self.points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        self.frame.length_outward((high - low).length())
+    }
+
+    pub(crate) fn inner_area(&self) -> f64 {
+        (0..self.n_triangles()).map(|t| 0.5 * self.normal(t).length()).sum()
+    }
+
+    pub(crate) fn corners(&self, t: usize) -> [DVec3; 3] {
+        self.half_edges.triangle(t).map(|v| self.points[v as usize])
+    }
+
+    /// Twice the area long.
+    fn normal(&self, t: usize) -> DVec3 {
+        let [a, b, c] = self.corners(t);
+        (b - a).cross(c - a)
+    }
+
+    /// The angle of a half-edge's triangle at its origin.
+    fn angle(&self, h: u32) -> f64 {
+        let origin = |h: u32| self.points[self.half_edges.origin[h as usize] as usize];
+        let at = origin(h);
+        let (u, v) = (self.points[self.half_edges.target(h) as usize] - at, origin(prev(h)) - at);
+        libm::atan2(u.cross(v).length(), u.dot(v))
+    }
+
+    /// An attribute of the given mesh at a place of a triangle.
+    pub(crate) fn attribute(&self, attribute: &Attribute, t: usize, weights: [f64; 3]) -> f64 {
+        let values = self.half_edges.triangle(t).map(|v| attribute.values[self.sources[v as usize]]);
+        values.iter().zip(weights).map(|(value, weight)| value * weight).sum()
+    }
+
+    pub(crate) fn attributes(&self) -> &[Attribute] {
+        &self.attributes
+    }
+
+    /// The mesh as it is now.
+    pub fn to_mesh(&self) -> TriangleMesh {
+        TriangleMesh {
+            vertices: self.points.iter().map(|&p| self.frame.outward(p)).collect(),
+            triangles: self.half_edges.triangles().map(|t| t.map(|v| v as usize)).collect(),
+            attributes: self.attributes.iter().map(|attribute| self.at_vertices(attribute)).collect(),
+        }
+    }
+
+    /// How many vertices the given mesh has.
+    fn n_given(&self) -> usize {
+        self.n_given
+    }
+
+    /// An attribute of the given mesh as one of the surface's vertices.
+    fn at_vertices(&self, Attribute { name, values }: &Attribute) -> Attribute {
+        Attribute { name: name.clone(), values: self.sources.iter().map(|&v| values[v]).collect() }
+    }
+}

@@ -1,0 +1,108 @@
+//! The command line with surfaces: `evenly remesh`, `evenly sample`, `evenly analyze` of a mesh.
+
+#![allow(clippy::unwrap_used)]
+
+mod shell;
+mod solids;
+
+use std::fmt::Write as _;
+
+use evenly::TriangleMesh;
+use shell::{Shell, json};
+use solids::{cube, torus, two_at_an_edge};
+
+fn off(mesh: &TriangleMesh) -> String {
+    let mut text = format!("OFF\n{} {} 0\n", mesh.vertices.len(), mesh.triangles.len());
+    for [x, y, z] in &mesh.vertices {
+        let _ = writeln!(text, "{x} {y} {z}");
+    }
+    for [a, b, c] in &mesh.triangles {
+        let _ = writeln!(text, "3 {a} {b} {c}");
+    }
+    text
+}
+
+fn shell() -> Shell {
+    let shell = Shell::new();
+    shell.write("torus.off", off(&torus(40, 16)));
+    shell.write("cube.off", off(&cube(2)));
+    shell.write("edge.off", off(&two_at_an_edge()));
+    shell
+}
+
+#[test]
+fn a_mesh_goes_out_in_every_format_and_is_measured_alike() {
+    let shell = shell();
+    for ending in ["ply", "obj", "off"] {
+        shell.ok(&format!("remesh torus.off -n 600 -o m.{ending} --report r.json --force"));
+        let report = json(&shell.read("r.json"));
+        let found = json(&shell.ok(&format!("analyze m.{ending} --reference torus.off --json")));
+        for name in ["n_vertices", "min_angle_deg", "max_angle_deg", "min_quality", "euler_characteristic", "obtuse_triangles"] {
+            assert_eq!(report["quality"][name], found[name], "{ending} {name}");
+        }
+        assert_eq!((&found["n_vertices"], &found["euler_characteristic"]), (&600.into(), &0.into()));
+        assert_eq!((&found["n_breaches"], &found["self_intersections"]), (&0.into(), &0.into()));
+        assert!(found["hausdorff"].as_f64().unwrap() < 0.05);
+    }
+    shell.ok("remesh torus.off -n 600 -o m.stl");
+    shell.ok("remesh torus.off -n 600 -o m.vtu --plot m.svg");
+    assert!(shell.read("m.svg").starts_with("<svg"));
+    let ply = shell.read("m.ply");
+    for name in ["nx", "facet", "bary2"] {
+        assert!(ply.contains(&format!("property double {name}\n")), "{name}");
+    }
+}
+
+#[test]
+fn sizes_and_features_are_heard() {
+    let shell = shell();
+    let quality = |words: &str| {
+        // On a cube this coarse not all targets are met, and that is said.
+        let code = shell.run(&format!("remesh {words} -o m.ply --report r.json --force")).status.code();
+        assert!(code == Some(0) || code == Some(1) && words.starts_with("cube"), "{words}: {code:?}");
+        json(&shell.read("r.json"))["quality"].clone()
+    };
+    assert!(quality("torus.off -n 900 --density linear:x,3")["max_edge"].as_f64() > Some(0.15));
+    assert_eq!(quality("torus.off -n 900 --density lfs")["n_vertices"], 900);
+    assert!(quality("torus.off --density curvature:0.01")["n_vertices"].as_u64() > Some(100));
+    assert!(quality("torus.off --spacing 0.15")["n_vertices"].as_u64() > Some(500));
+    let (kept, off) = (quality("cube.off -n 400"), quality("cube.off -n 400 --features off"));
+    assert!((kept["area"].as_f64().unwrap() - 6.0).abs() < 1e-9);
+    assert!(off["area"].as_f64() < Some(6.0 - 1e-3));
+}
+
+#[test]
+fn points_are_sampled() {
+    let shell = shell();
+    for method in ["push-pull", "eliminate", "white"] {
+        shell.ok(&format!("sample torus.off -n 300 --method {method} -o p.csv --force"));
+        assert_eq!(shell.read("p.csv").lines().count(), 301, "{method}");
+    }
+    shell.ok("sample torus.off --spacing 0.2 --method poisson-disk -o p.ply");
+    let text = shell.ok("sample torus.off -n 10 --method white -o -");
+    assert_eq!(text.lines().filter(|line| !line.starts_with('#')).count(), 10);
+}
+
+#[test]
+fn bad_input_is_one_clear_error() {
+    let shell = shell();
+    for (words, expected) in [
+        ("remesh edge.off -n 100 -o m.ply", "edge 0-1"),
+        ("remesh nothing.obj -n 100 -o m.ply", "nothing.obj"),
+        ("remesh torus.off -o m.ply", "required"),
+        ("remesh torus.off -n 100 --spacing 1 -o m.ply", "cannot be used"),
+        ("remesh torus.off -n 3 -o m.ply", "--n-points is 3"),
+        ("remesh torus.off -n 100 --density linear:w,3 -o m.ply", "linear:axis,ratio"),
+        ("remesh torus.off -n 100 --density attr:heat -o m.ply", "attr"),
+        ("remesh torus.off -n 100 --features 200deg -o m.ply", "below 180"),
+        ("remesh torus.off -n 100 -o m.geojson", "flat"),
+        ("sample torus.off --spacing=-1 -o p.csv", "positive"),
+        ("analyze torus.off --certify 0.1", "0.5 or more"),
+    ] {
+        let said = shell.refused(words);
+        assert!(said.contains(expected), "{words}: {said}");
+    }
+    // Repaired, it is a manifold.
+    shell.run("remesh edge.off -n 100 --repair -o m.ply");
+    assert!(json(&shell.ok("analyze edge.off --json"))["is_manifold"] == false);
+}

@@ -1,0 +1,274 @@
+//! Laws of surfaces: what is kept, what is certified, what is refused.
+
+#![allow(clippy::unwrap_used)]
+
+mod solids;
+
+use evenly::{
+    Error, LloydParams, OptBetaParams, Outcome, RemeshMethod, RemeshParams, Remeshed, Report, RunContext, Surface, SurfaceSampling,
+    SurfaceSizing, TriangleMesh, WellSpacedParams, certificate, remesh, sample_surface, self_intersections, surface_distance,
+    surface_quality, surface_sizes,
+};
+use proptest::prelude::*;
+
+use solids::{cone, cube, genus_3, l_shape, moebius, needle, patch, sheet, sphere, torus, touching_spheres};
+
+fn remeshed(surface: &Surface, n_points: usize, seed: u64) -> (Remeshed, Report) {
+    remesh(surface, &RemeshParams { n_points, seed, ..RemeshParams::default() }, &mut RunContext::default()).unwrap()
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// All shapes, with a name and a number of vertices that suits them.
+fn all() -> Vec<(&'static str, TriangleMesh, usize)> {
+    vec![
+        ("sphere", sphere(24), 1000),
+        ("torus", torus(40, 20), 1200),
+        ("genus 3", genus_3(), 2500),
+        ("cube", cube(1), 700),
+        ("L", l_shape(), 900),
+        ("needle", needle(), 400),
+        ("sheet", sheet(), 1500),
+        ("cone", cone(24), 600),
+        ("two spheres", touching_spheres(), 1400),
+        ("patch", patch(20), 500),
+    ]
+}
+
+#[test]
+fn a_new_mesh_has_exactly_n_vertices_and_the_surfaces_topology() {
+    for (name, mesh, n) in all() {
+        let surface = Surface::new(&mesh).unwrap();
+        for (n, seed) in [(n, 1), (n + 37, 2)] {
+            let (made, report) = remeshed(&surface, n, seed);
+            let made = Surface::new(&made.mesh).unwrap();
+            assert_eq!(made.n_vertices(), n, "{name}");
+            assert_eq!(made.euler_characteristic(), surface.euler_characteristic(), "{name}");
+            assert_eq!(made.n_components(), surface.n_components(), "{name}");
+            assert_eq!(made.is_closed(), surface.is_closed(), "{name}");
+            // Converged is a promise about the triangles as they are.
+            if report.outcome == Outcome::Converged {
+                assert_eq!(certificate(&made, 0.63 / 0.90), [], "{name}, {n}");
+                assert_eq!(surface_quality(&made).obtuse_triangles, 0, "{name}, {n}");
+            }
+            let farthest = surface_distance(&made, &surface).hausdorff;
+            let spacing = surface_quality(&made).spacing / surface.diagonal();
+            assert!(farthest < 0.8 * spacing, "{name}, {n}: {farthest} of {spacing}");
+        }
+    }
+}
+
+#[test]
+fn smooth_closed_shapes_converge_to_what_the_paper_has() {
+    for (name, mesh, n) in [("sphere", sphere(24), 2000), ("torus", torus(60, 24), 2000)] {
+        let surface = Surface::new(&mesh).unwrap();
+        for seed in 0..3 {
+            let (made, report) = remeshed(&surface, n, seed);
+            assert_eq!(report.outcome, Outcome::Converged, "{name}, {seed}");
+            let quality = surface_quality(&Surface::new(&made.mesh).unwrap());
+            assert!(quality.min_angle_deg > 45.5 && quality.max_angle_deg < 88.9, "{name}: {quality:?}");
+            assert!(quality.min_quality > 0.72 && quality.valence_567_fraction > 0.999, "{name}: {quality:?}");
+            assert_eq!(self_intersections(&Surface::new(&made.mesh).unwrap()), [] as [[usize; 2]; 0]);
+        }
+    }
+}
+
+#[test]
+fn creases_corners_and_borders_are_kept() {
+    // Of a cube each edge has vertices, and the corners are among them.
+    let surface = Surface::new(&cube(3)).unwrap();
+    let (made, _) = remeshed(&surface, 900, 5);
+    let n_on = |p: &[f64; 3]| p.iter().filter(|&&x| x.abs() < 1e-9 || (x - 1.0).abs() < 1e-9).count();
+    let counts = [1, 2, 3].map(|k| made.mesh.vertices.iter().filter(|p| n_on(p) >= k).count());
+    assert_eq!(counts[0], 900, "all vertices lie on the sides");
+    assert!(counts[1] >= 8 + 12 * 8, "{counts:?}");
+    assert_eq!(counts[2], 8);
+    let quality = surface_quality(&Surface::new(&made.mesh).unwrap());
+    assert!((quality.area - 6.0).abs() < 1e-9, "{}", quality.area);
+
+    // Of a patch the border.
+    let mesh = patch(20);
+    let surface = Surface::new(&mesh).unwrap();
+    let (made, _) = remeshed(&surface, 500, 5);
+    let is_on_border = |p: &[f64; 3]| p[..2].iter().any(|&x| x.abs() < 1e-9 || (x - 1.0).abs() < 1e-9);
+    let n_border = made.mesh.vertices.iter().filter(|p| is_on_border(p)).count();
+    assert_eq!(n_border, Surface::new(&made.mesh).unwrap().n_border_edges());
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let surface = Surface::new(&torus(30, 12)).unwrap();
+    let run = |n_threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+        pool.install(|| remeshed(&surface, 700, 3).0)
+    };
+    assert_eq!(run(1), run(3));
+}
+
+#[test]
+fn every_method_runs_and_keeps_the_number() {
+    let surface = Surface::new(&sphere(16)).unwrap();
+    let quality = |method: RemeshMethod| {
+        let params = RemeshParams { n_points: 500, method, ..RemeshParams::default() };
+        let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
+        assert_eq!(made.mesh.vertices.len(), 500);
+        surface_quality(&Surface::new(&made.mesh).unwrap())
+    };
+    assert!(quality(RemeshMethod::WellSpaced(WellSpacedParams::default())).beta <= 0.75 + 1e-9);
+    assert!(quality(RemeshMethod::Lloyd(LloydParams::default())).mean_quality > 0.9);
+    assert!(quality(RemeshMethod::OptBeta(OptBetaParams { beta: 0.8, ..OptBetaParams::default() })).beta < 0.9);
+    assert!(quality(RemeshMethod::DistMesh(Default::default())).mean_quality > 0.85);
+}
+
+#[test]
+fn sizes_vary_and_angles_stay_certified() {
+    let surface = Surface::new(&torus(60, 24)).unwrap();
+    for sizing in [SurfaceSizing::Curvature { error: None }, SurfaceSizing::FeatureSize, SurfaceSizing::Linear { axis: 0, ratio: 3.0 }] {
+        let sizes = surface_sizes(&surface, &sizing, Some(1500)).unwrap();
+        let params = RemeshParams { n_points: 1500, sizes, ..RemeshParams::default() };
+        let (made, report) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
+        let made = Surface::new(&made.mesh).unwrap();
+        assert_eq!(made.n_vertices(), 1500);
+        let quality = surface_quality(&made);
+        assert!(quality.min_angle_deg > 40.0 && quality.max_angle_deg < 95.0, "{sizing:?}: {quality:?}");
+        if report.outcome == Outcome::Converged {
+            assert_eq!(certificate(&made, 0.63 / 0.90), [], "{sizing:?}");
+        }
+        // Of a torus the largest curvature and the feature size are the same all around.
+        let is_alike = !matches!(sizing, SurfaceSizing::Linear { .. });
+        assert!(is_alike || quality.max_edge / quality.min_edge > 2.0, "{sizing:?}");
+    }
+    let error = surface_sizes(&surface, &SurfaceSizing::Attribute("size".into()), Some(10)).unwrap_err();
+    assert!(error.to_string().contains("there are none"), "{error}");
+}
+
+#[test]
+fn offsets_and_units_cost_no_digits() {
+    let base = torus(30, 12);
+    let moved = |scale: f64, offset: f64| {
+        let vertices = base.vertices.iter().map(|p| p.map(|x| x * scale + offset)).collect();
+        TriangleMesh { vertices, ..base.clone() }
+    };
+    for (scale, offset) in [(1e-9, 0.0), (1e9, 0.0), (1.0, 1e6), (1e-3, 1e3), (1e150, 0.0)] {
+        let surface = Surface::new(&moved(scale, offset)).unwrap();
+        let (made, report) = remeshed(&surface, 600, 1);
+        assert_eq!(report.outcome, Outcome::Converged, "{scale}, {offset}");
+        let quality = surface_quality(&Surface::new(&made.mesh).unwrap());
+        assert!(quality.min_angle_deg > 45.0 && quality.max_angle_deg < 89.0, "{scale}, {offset}: {quality:?}");
+    }
+}
+
+#[test]
+fn places_lie_on_the_facets_that_they_name() {
+    let mesh = torus(20, 10);
+    let surface = Surface::new(&mesh).unwrap();
+    let samplings =
+        [SurfaceSampling::White(300), SurfaceSampling::PoissonDisk(0.2), SurfaceSampling::Eliminate(300), SurfaceSampling::PushPull(300)];
+    for sampling in samplings {
+        let (points, _) = sample_surface(&surface, sampling, 3, &mut RunContext::default()).unwrap();
+        assert!(points.len() >= 250, "{sampling:?}: {}", points.len());
+        for point in points {
+            let corners = mesh.triangles[point.facet].map(|v| mesh.vertices[v]);
+            let at = [0, 1, 2].map(|axis| (0..3).map(|k| point.barycentric[k] * corners[k][axis]).sum::<f64>());
+            assert!(distance(at, point.position) < 1e-12, "{sampling:?}");
+            assert!(point.barycentric.iter().all(|weight| (0.0..=1.0 + 1e-12).contains(weight)), "{sampling:?}");
+            assert!((point.normal.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn poisson_disks_are_maximal_and_do_not_reach_through_a_sheet() {
+    let surface = Surface::new(&sheet()).unwrap();
+    let spacing = 0.15;
+    let (points, _) = sample_surface(&surface, SurfaceSampling::PoissonDisk(spacing), 1, &mut RunContext::default()).unwrap();
+    // Both sides are nearer to each other than the spacing, and still full: along each side no two points are too near.
+    let sides = [0.0, 0.05].map(|z| points.iter().filter(|p| (p.position[2] - z).abs() < 1e-9).map(|p| p.position).collect::<Vec<_>>());
+    for side in &sides {
+        assert!(side.len() > 20, "{}", side.len());
+        for (k, &a) in side.iter().enumerate() {
+            assert!(side[..k].iter().all(|&b| distance(a, b) >= spacing));
+        }
+    }
+    // No place of a side has room for another.
+    let (tries, _) = sample_surface(&surface, SurfaceSampling::White(4000), 9, &mut RunContext::default()).unwrap();
+    for p in tries {
+        assert!(points.iter().any(|q| distance(p.position, q.position) < spacing * 1.01), "{:?}", p.position);
+    }
+}
+
+#[test]
+fn what_is_no_manifold_is_refused_by_name_and_repaired() {
+    // Two tetrahedra that share an edge.
+    let mesh = solids::two_at_an_edge();
+    let error = Surface::new(&mesh).unwrap_err();
+    assert!(matches!(&error, Error::InvalidMesh(text) if text.contains("edge 0-1")), "{error}");
+    let repaired = Surface::repaired(&mesh).unwrap();
+    assert!(repaired.is_closed() && repaired.n_components() == 2, "{:?}", repaired.notes());
+    assert_eq!(repaired.euler_characteristic(), 4);
+
+    // A triangle that runs the wrong way.
+    let mut mesh = cube(1);
+    mesh.triangles[3].swap(0, 1);
+    let error = Surface::new(&mesh).unwrap_err();
+    assert!(error.to_string().contains("agree"), "{error}");
+    assert!(Surface::repaired(&mesh).unwrap().is_closed());
+
+    // A band with one side: a clear error, and with repair one cut.
+    let band = moebius(40);
+    assert!(Surface::new(&band).is_err());
+    let cut = Surface::repaired(&band).unwrap();
+    assert_eq!(cut.euler_characteristic(), 1, "{:?}", cut.notes());
+    let (made, _) = remeshed(&cut, 400, 1);
+    assert_eq!(made.mesh.vertices.len(), 400);
+
+    // Spheres that touch in a point are two.
+    let spheres = Surface::new(&touching_spheres()).unwrap();
+    assert_eq!((spheres.n_components(), spheres.euler_characteristic()), (2, 4));
+}
+
+#[test]
+fn bad_input_is_one_clear_error() {
+    let params = |n_points: usize| RemeshParams { n_points, ..RemeshParams::default() };
+    let surface = Surface::new(&cube(1)).unwrap();
+    for n in [0, 3] {
+        assert!(remesh(&surface, &params(n), &mut RunContext::default()).is_err());
+    }
+    let too_few = remesh(&Surface::new(&genus_3()).unwrap(), &params(5), &mut RunContext::default()).unwrap_err();
+    assert!(too_few.to_string().contains("no fewer than"), "{too_few}");
+    let bad = |change: &dyn Fn(&mut TriangleMesh)| {
+        let mut mesh = cube(1);
+        change(&mut mesh);
+        Surface::new(&mesh).unwrap_err().to_string()
+    };
+    assert!(bad(&|mesh| mesh.vertices[3][1] = f64::NAN).contains("vertex 3"));
+    assert!(bad(&|mesh| mesh.triangles[2] = [0, 1, 99]).contains("triangle 2"));
+    assert!(bad(&|mesh| mesh.triangles.clear()).contains("no triangle"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(40) })]
+    #[test]
+    fn no_soup_of_triangles_makes_it_panic(
+        vertices in prop::collection::vec(prop::array::uniform3(prop_oneof![-1.0..1.0f64, Just(0.0), Just(1.0), Just(1e-300), Just(1e300)]), 3..12),
+        corners in prop::collection::vec(prop::array::uniform3(0..12usize), 1..20),
+        n_points in 4..60usize,
+    ) {
+        let n = vertices.len();
+        let mesh = TriangleMesh { vertices, triangles: corners.into_iter().map(|t| t.map(|v| v % n)).collect(), attributes: Vec::new() };
+        let _ = Surface::new(&mesh);
+        if let Ok(surface) = Surface::repaired(&mesh) {
+            let params = RemeshParams {
+                n_points,
+                method: RemeshMethod::PushPull(evenly::PushPullParams { max_passes: Some(20), ..evenly::PushPullParams::default() }),
+                ..RemeshParams::default()
+            };
+            if let Ok((made, _)) = remesh(&surface, &params, &mut RunContext::default()) {
+                prop_assert_eq!(made.mesh.vertices.len(), n_points);
+                prop_assert!(made.mesh.vertices.iter().flatten().all(|x| x.is_finite()));
+            }
+        }
+    }
+}
