@@ -89,7 +89,8 @@ fn gallery() -> bool {
     let is_drawn = example("03_scenes", "target/scenes")
         && example("04_polygons", "target/polygons")
         && pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));
-    let mut examples = [("01_energy", "gallery/energy.svg"), ("02_methods", "gallery/methods.svg")].into_iter();
+    let mut examples =
+        [("01_energy", "gallery/energy.svg"), ("02_methods", "gallery/methods.svg"), ("05_surfaces", "gallery/surfaces")].into_iter();
     is_drawn && examples.all(|(name, path)| example(name, path))
 }
 

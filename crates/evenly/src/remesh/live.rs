@@ -1,5 +1,6 @@
 //! [`LiveSurface`]: a mesh on a surface whose vertices move along it, and which is Delaunay where it is looked at.
 
+use std::collections::HashSet;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::{DVec2, DVec3};
@@ -136,17 +137,27 @@ impl<'a> LiveSurface<'a> {
     /// Whether each edge of each triangle is at least as long as is wanted there, and each circumradius at most as large.
     pub fn meets(&mut self, targets: &PushPullParams) -> bool {
         self.legalize();
-        let is_met = |corners: [u32; 3]| {
-            let corners = corners.map(|v| self.vertex(v));
-            let [a, b, c] = corners.map(|corner| corner.at);
-            let scale = corners.iter().map(|corner| 1.0 / corner.size).sum::<f64>() / (3.0 * self.spacing);
-            let edges = [a.distance(b), b.distance(c), c.distance(a)];
-            let radius = edges.iter().product::<f64>() / (2.0 * (b - a).cross(c - a).length());
-            let shortest = edges.into_iter().fold(f64::INFINITY, f64::min);
-            targets.min_distance.is_none_or(|wanted| shortest * scale >= wanted - ROUNDING)
-                && targets.coverage_radius.is_none_or(|wanted| radius * scale <= wanted + ROUNDING)
-        };
-        self.half_edges().triangles().all(is_met)
+        self.half_edges().triangles().all(|corners| self.is_met(corners, targets))
+    }
+
+    fn is_met(&self, corners: [u32; 3], targets: &PushPullParams) -> bool {
+        let corners = corners.map(|v| self.vertex(v));
+        let [a, b, c] = corners.map(|corner| corner.at);
+        let scale = corners.iter().map(|corner| 1.0 / corner.size).sum::<f64>() / (3.0 * self.spacing);
+        let edges = [a.distance(b), b.distance(c), c.distance(a)];
+        let radius = edges.iter().product::<f64>() / (2.0 * (b - a).cross(c - a).length());
+        let shortest = edges.into_iter().fold(f64::INFINITY, f64::min);
+        targets.min_distance.is_none_or(|wanted| shortest * scale >= wanted - ROUNDING)
+            && targets.coverage_radius.is_none_or(|wanted| radius * scale <= wanted + ROUNDING)
+    }
+
+    /// Lets go what stays off the creases, and is a corner of a triangle that does not meet the targets. Returns how many.
+    pub fn release(&mut self, targets: &PushPullParams) -> usize {
+        let missing: Vec<[u32; 3]> = self.half_edges().triangles().filter(|&corners| !self.is_met(corners, targets)).collect();
+        let on_creases: HashSet<u32> = self.bonds.iter().flatten().copied().collect();
+        let held: HashSet<u32> = missing.into_iter().flatten().filter(|v| self.fixed[*v as usize] && !on_creases.contains(v)).collect();
+        held.iter().for_each(|&v| self.fixed[v as usize] = false);
+        held.len()
     }
 
     /// The largest circumradius over the shortest edge, once all edges are Delaunay.
@@ -154,7 +165,7 @@ impl<'a> LiveSurface<'a> {
         self.legalize();
         let (mut shortest, mut largest) = (f64::INFINITY, 0f64);
         for corners in self.half_edges().triangles() {
-            let [a, b, c] = corners.map(|v| self.vertex(v).at);
+            let [a, b, c] = corners.map(|v| self.at(v));
             let edges = [a.distance(b), b.distance(c), c.distance(a)];
             shortest = edges.into_iter().fold(shortest, f64::min);
             largest = largest.max(edges.iter().product::<f64>() / (2.0 * (b - a).cross(c - a).length()));
@@ -166,6 +177,25 @@ impl<'a> LiveSurface<'a> {
         Vertex::of(self.mesh.place(v))
     }
 
+    #[inline]
+    pub fn at(&self, v: u32) -> DVec3 {
+        self.mesh.part::<3>(v, 0).into()
+    }
+
+    /// The surface's normal where a vertex is.
+    #[inline]
+    pub(super) fn normal(&self, v: u32) -> DVec3 {
+        self.mesh.part::<3>(v, 3).into()
+    }
+
+    /// The wanted spacing where a vertex is, relative to the mean.
+    #[inline]
+    pub(super) fn size(&self, v: u32) -> f64 {
+        let [size] = self.mesh.part(v, 6);
+        size
+    }
+
+    #[inline]
     pub fn is_fixed(&self, v: u32) -> bool {
         self.fixed[v as usize]
     }
@@ -201,19 +231,19 @@ impl<'a> LiveSurface<'a> {
 
     /// How well a triangle fits the surface.
     pub(super) fn fit(&self, normal: DVec3, corners: [u32; 3]) -> f64 {
-        Guard::fit(normal, corners.map(|v| (!self.is_fixed(v)).then(|| self.vertex(v).normal)))
+        Guard::fit(normal, corners.map(|v| (!self.is_fixed(v)).then(|| self.normal(v))))
     }
 
     /// Goes once around `v`, counter-clockwise. On a border the last spoke has no half-edge.
     pub(super) fn walk(&self, v: u32, ring: &mut Vec<Spoke<DVec3>>) {
         ring.clear();
-        let at = self.vertex(v).at;
+        let at = self.at(v);
         let first = self.mesh.outgoing(v);
         let (mut vertex, mut half_edge) = (self.mesh.origin(next(first)), first);
-        let mut way = self.vertex(vertex).at - at;
+        let mut way = self.at(vertex) - at;
         loop {
             let (after, turned) = self.mesh.turn(half_edge);
-            let way_after = self.vertex(after).at - at;
+            let way_after = self.at(after) - at;
             let (dot, cross) = (way.dot(way_after), way.cross(way_after).length());
             ring.push(Spoke { vertex, half_edge, is_echo: false, way, length: 0.0, squared: way.length_squared(), dot, cross });
             (vertex, half_edge, way) = (after, turned, way_after);
@@ -267,7 +297,7 @@ impl<'a> LiveSurface<'a> {
             return false;
         }
         let [p, q, r, s] = self.mesh.quadrilateral(h);
-        let [a, b, c, d] = [p, q, r, s].map(|v| self.vertex(v).at);
+        let [a, b, c, d] = [p, q, r, s].map(|v| self.at(v));
         !is_delaunay([a, b, c, d]) && self.can_flip([p, q, r, s])
     }
 
@@ -276,7 +306,7 @@ impl<'a> LiveSurface<'a> {
         if r == s || self.is_bond(p, q) || self.are_neighbours(r, s) {
             return false;
         }
-        let [a, b, c, d] = [p, q, r, s].map(|v| self.vertex(v).at);
+        let [a, b, c, d] = [p, q, r, s].map(|v| self.at(v));
         let normal = |a: DVec3, b: DVec3, c: DVec3| (b - a).cross(c - a);
         let (left, right, new) = (normal(a, b, c), normal(b, a, d), [normal(d, b, c), normal(c, a, d)]);
         let old = left + right;
@@ -337,7 +367,7 @@ impl Ground for LiveSurface<'_> {
     }
 
     fn local_spacing(&self, point: u32) -> f64 {
-        self.spacing * self.vertex(point).size
+        self.spacing * self.size(point)
     }
 
     fn has_density(&self) -> bool {
@@ -421,7 +451,7 @@ impl Ground for LiveSurface<'_> {
     }
 
     fn sort_by_rows(&self, points: &mut [u32], height: f64) {
-        let at = |v: u32| self.vertex(v).at;
+        let at = |v: u32| self.at(v);
         let row = |v: u32| (at(v).y / (height * self.spacing)).floor();
         points.sort_by(|&a, &b| row(a).total_cmp(&row(b)).then(at(a).x.total_cmp(&at(b).x)).then(a.cmp(&b)));
     }

@@ -66,7 +66,7 @@ impl LiveSurface<'_> {
             if !(new_length > room && new.dot(old) > LEAST_TURN * new_length * old_length) {
                 return false;
             }
-            let [b, c] = [spoke, after].map(|spoke| (!self.is_fixed(spoke.vertex)).then(|| self.vertex(spoke.vertex).normal));
+            let [b, c] = [spoke, after].map(|spoke| (!self.is_fixed(spoke.vertex)).then(|| self.normal(spoke.vertex)));
             let after = Guard::fit(new, [Some(to.normal), b, c]);
             after > guard.0 || guard.allows(Guard::fit(old, [Some(from.normal), b, c]), after)
         };

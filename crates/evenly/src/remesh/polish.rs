@@ -56,13 +56,13 @@ impl LiveSurface<'_> {
     }
 
     fn badness_of(&self, t: u32) -> f64 {
-        let [a, b, c] = [0, 1, 2].map(|k| self.vertex(self.mesh.origin(3 * t + k)).at);
+        let [a, b, c] = [0, 1, 2].map(|k| self.at(self.mesh.origin(3 * t + k)));
         badness(a, b, c)
     }
 
     /// How bad the triangles around a vertex are, if it is at a place.
     fn badness_around(&self, at: DVec3, ring: &[Spoke<DVec3>]) -> f64 {
-        let corner = |spoke: &Spoke<DVec3>| self.vertex(spoke.vertex).at;
+        let corner = |spoke: &Spoke<DVec3>| self.at(spoke.vertex);
         let all = ring.iter().enumerate().filter(|(_, spoke)| spoke.half_edge != BORDER);
         all.map(|(k, spoke)| badness(at, corner(spoke), corner(ring.get(k + 1).unwrap_or(&ring[0])))).sum()
     }
@@ -97,7 +97,7 @@ impl LiveSurface<'_> {
             return;
         }
         let corners = self.mesh.quadrilateral(h);
-        let [p, q, r, s] = corners.map(|v| self.vertex(v).at);
+        let [p, q, r, s] = corners.map(|v| self.at(v));
         let is_better = badness(s, q, r) + badness(r, p, s) < badness(p, q, r) + badness(q, p, s);
         if is_better && self.can_flip(corners) {
             self.flip(h);

@@ -22,6 +22,8 @@ const KICK: f64 = 0.1;
 const GENTLE_STAGES: usize = 3;
 /// So often vertices are put where the surface stands out.
 const ANCHORINGS: usize = 2;
+/// So often those are let go that keep others from their places.
+const RELEASES: usize = 3;
 /// Passes at most, if none are given; as many again after each time.
 const MOST_PASSES: usize = 1000;
 
@@ -43,13 +45,17 @@ pub(super) fn settle<'a>(
         sweep.change_rule(report.iterations);
         find_places(&mut sweep, params, run, report)?;
     }
+    // What is fixed does not move, though it may be too near to others that are: off the creases it is let go.
+    let targets = targets(&params.method);
+    for _ in 0..RELEASES {
+        let has_missed = report.outcome == Outcome::Converged && targets.is_some_and(|targets| !sweep.ground_mut().meets(&targets));
+        if !has_missed || targets.is_none_or(|targets| sweep.ground_mut().release(&targets) == 0) {
+            break;
+        }
+        sweep.change_rule(report.iterations);
+        find_places(&mut sweep, params, run, report)?;
+    }
     let mut live = sweep.into_mesh();
-    // What is fixed does not move, though it may be too near to others that are.
-    let targets = match params.method {
-        RemeshMethod::PushPull(targets) => Some(targets),
-        RemeshMethod::WellSpaced(wanted) => Some(wanted.targets()),
-        _ => None,
-    };
     if report.outcome == Outcome::Converged && targets.is_some_and(|targets| !live.meets(&targets)) {
         report.outcome = Outcome::IterationLimit;
         report.notes.push("vertices that stay where they are, on creases, borders and tips, keep the targets from being reached".into());
@@ -61,6 +67,15 @@ pub(super) fn settle<'a>(
         live.polish(params.seed);
     }
     Ok(live)
+}
+
+/// The targets of a method that has some.
+fn targets(method: &RemeshMethod) -> Option<PushPullParams> {
+    match method {
+        RemeshMethod::PushPull(targets) => Some(*targets),
+        RemeshMethod::WellSpaced(wanted) => Some(wanted.targets()),
+        _ => None,
+    }
 }
 
 fn find_places(sweep: &mut Sweep<LiveSurface>, params: &RemeshParams, run: &mut RunContext, report: &mut Report) -> Result<(), Error> {

@@ -37,7 +37,7 @@ impl LiveSurface<'_> {
 
     /// Finds what the star's lengths, radii and area are in the spacings that are wanted at its triangles.
     fn weigh(&self, v: u32, senses: &Senses, star: &mut Star, spokes: &[Spoke<DVec3>]) {
-        let inverse = |v: u32| 1.0 / self.vertex(v).size;
+        let inverse = |v: u32| 1.0 / self.size(v);
         let own = inverse(v);
         let n = spokes.len();
         let of_wedge = |k: usize| (own + inverse(spokes[k].vertex) + inverse(spokes[if k + 1 == n { 0 } else { k + 1 }].vertex)) / 3.0;
@@ -77,16 +77,16 @@ impl LiveSurface<'_> {
 
     /// Two directions along the surface at a vertex.
     pub(super) fn tangents(&self, v: u32) -> [DVec3; 2] {
-        let normal = self.vertex(v).normal;
+        let normal = self.normal(v);
         if normal == DVec3::ZERO { [DVec3::X, DVec3::Y] } else { normal.any_orthonormal_pair().into() }
     }
 
     /// Lays out the star of `v` and those of its neighbours in the plane along the surface.
     pub(super) fn lay_out(&self, v: u32, buffer: &mut SurfaceBuffer) {
         let [x, y] = self.tangents(v);
-        let (at, scale) = (self.vertex(v).at, 1.0 / self.spacing());
+        let (at, scale) = (self.at(v), 1.0 / self.spacing());
         let flat = |other: u32| {
-            let way = (self.vertex(other).at - at) * scale;
+            let way = (self.at(other) - at) * scale;
             DVec2::new(way.dot(x), way.dot(y))
         };
         let mut ring = std::mem::take(&mut buffer.moving);

@@ -2,6 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use glam::DVec3;
+
 use super::triangle_mesh::TriangleMesh;
 use crate::error::Error;
 
@@ -15,14 +17,11 @@ pub(super) struct Clean {
     pub notes: Vec<String>,
 }
 
-/// Welds equal positions, and drops triangles that have two corners in one place or are there twice.
+/// Welds equal places, and drops triangles that have two corners in one place or are there twice.
 ///
 /// # Errors
-/// [`Error::InvalidMesh`] for coordinates that are not finite, corners that do not exist, and where no triangle is left.
-pub(super) fn clean(mesh: &TriangleMesh) -> Result<Clean, Error> {
-    if let Some((v, p)) = mesh.vertices.iter().enumerate().find(|(_, p)| !p.iter().all(|x| x.is_finite())) {
-        return Err(Error::InvalidMesh(format!("vertex {v} is ({}, {}, {}), which is not finite", p[0], p[1], p[2])));
-    }
+/// [`Error::InvalidMesh`] for corners that do not exist, and where no triangle is left.
+pub(super) fn clean(mesh: &TriangleMesh, places: &[DVec3]) -> Result<Clean, Error> {
     let n = mesh.vertices.len();
     if n >= u32::MAX as usize / 8 || mesh.triangles.len() >= u32::MAX as usize / 8 {
         return Err(Error::InvalidMesh(format!("{n} vertices and {} triangles are too many", mesh.triangles.len())));
@@ -36,8 +35,8 @@ pub(super) fn clean(mesh: &TriangleMesh) -> Result<Clean, Error> {
     }
     let mut first_at: HashMap<[u64; 3], usize> = HashMap::with_capacity(n);
     // Adding 0 makes one zero of both.
-    let welded: Vec<usize> =
-        mesh.vertices.iter().enumerate().map(|(v, p)| *first_at.entry(p.map(|x| (x + 0.0).to_bits())).or_insert(v)).collect();
+    let bits = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
+    let welded: Vec<usize> = places.iter().enumerate().map(|(v, p)| *first_at.entry(bits(p)).or_insert(v)).collect();
     let n_welded = n - first_at.len();
 
     let mut vertex_of = vec![u32::MAX; n];

@@ -15,7 +15,7 @@ const LOOSE_END: f64 = 3.0;
 const LEAST_LENGTH: f64 = 4.0;
 const MEAN_LENGTH: f64 = 1.2;
 /// The edges of creases that hang together turn so many times as much as most others that end on them.
-const CONTRAST: f64 = 8.0;
+const CONTRAST: f64 = 12.0;
 /// Tips are so many spacings away from each other.
 const TIPS_APART: f64 = 3.0;
 

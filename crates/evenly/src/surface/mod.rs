@@ -51,6 +51,9 @@ pub struct Surface {
     notes: Vec<String>,
 }
 
+/// Added and taken away again, it leaves multiples of 2^-52.
+const ROUND: f64 = 1.5;
+
 /// How input units are turned into those inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Frame {
@@ -69,8 +72,9 @@ impl Frame {
         Self { centre, scale: if longest > 0.0 { 2f64.powi(libm::ilogb(longest).clamp(-1020, 1020)) } else { 1.0 } }
     }
 
+    /// Rounded to what numbers of order 1 tell, so that no two places are too near for reckoning.
     pub fn inward(&self, p: [f64; 3]) -> DVec3 {
-        (DVec3::from(p) - self.centre) / self.scale
+        ((DVec3::from(p) - self.centre) / self.scale + ROUND) - ROUND
     }
 
     pub fn outward(&self, p: DVec3) -> [f64; 3] {
@@ -118,10 +122,13 @@ impl Surface {
     }
 
     fn checked(mesh: &TriangleMesh, is_repaired: bool) -> Result<Self, Error> {
-        let mut clean = clean(mesh)?;
-        let given = clean.sources.iter().map(|&v| DVec3::from(mesh.vertices[v]));
-        let frame = Frame::around(given);
-        let points: Vec<DVec3> = clean.sources.iter().map(|&v| frame.inward(mesh.vertices[v])).collect();
+        if let Some((v, p)) = mesh.vertices.iter().enumerate().find(|(_, p)| !p.iter().all(|x| x.is_finite())) {
+            return Err(Error::InvalidMesh(format!("vertex {v} is ({}, {}, {}), which is not finite", p[0], p[1], p[2])));
+        }
+        let frame = Frame::around(mesh.vertices.iter().map(|&p| p.into()));
+        let places: Vec<DVec3> = mesh.vertices.iter().map(|&p| frame.inward(p)).collect();
+        let mut clean = clean(mesh, &places)?;
+        let points: Vec<DVec3> = clean.sources.iter().map(|&v| places[v]).collect();
         let (mut half_edges, made_notes) = manifold(&clean, &points, is_repaired)?;
         let mut notes = std::mem::take(&mut clean.notes);
         notes.extend(made_notes);
@@ -225,8 +232,10 @@ impl Surface {
         (0..self.n_triangles()).map(|t| 0.5 * self.normal(t).length()).sum()
     }
 
+    #[inline]
     pub(crate) fn corners(&self, t: usize) -> [DVec3; 3] {
-        self.half_edges.triangle(t).map(|v| self.points[v as usize])
+        let [a, b, c] = self.half_edges.triangle(t);
+        [self.points[a as usize], self.points[b as usize], self.points[c as usize]]
     }
 
     /// Twice the area long.

@@ -105,6 +105,7 @@ impl Surface {
 }
 
 /// The place nearest to `p` in a triangle, and its weights: exactly 0 on edges and at corners (Ericson, "Real-Time Collision Detection", 2005, section 5.1.5).
+#[inline]
 pub(super) fn nearest_in_triangle([a, b, c]: [DVec3; 3], p: DVec3) -> (DVec3, [f64; 3]) {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));

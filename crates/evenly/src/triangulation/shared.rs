@@ -128,6 +128,13 @@ impl<const N: usize> SharedMesh<N> {
         std::array::from_fn(|k| f64::from_bits(place[k].load(Relaxed)))
     }
 
+    /// Some of the numbers, from the one at `first` on.
+    #[inline]
+    pub fn part<const M: usize>(&self, v: u32, first: usize) -> [f64; M] {
+        let Vertex { place, .. } = &self.vertices[v as usize];
+        std::array::from_fn(|k| f64::from_bits(place[first + k].load(Relaxed)))
+    }
+
     #[inline]
     pub fn set_place(&self, v: u32, place: [f64; N]) {
         for (number, new) in self.vertices[v as usize].place.iter().zip(place) {
