@@ -145,6 +145,21 @@ fn sizes_vary_and_angles_stay_certified() {
 }
 
 #[test]
+fn creases_are_kept_where_sizes_vary_whatever_their_units() {
+    let surface = Surface::new(&cube(3)).unwrap();
+    let sizes = surface_sizes(&surface, &SurfaceSizing::Linear { axis: 2, ratio: 2.0 }, Some(900)).unwrap();
+    let area = |unit: f64| {
+        let sizes = sizes.iter().map(|size| unit * size).collect();
+        let params = RemeshParams { n_points: 900, sizes, ..RemeshParams::default() };
+        let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
+        surface_quality(&Surface::new(&made.mesh).unwrap()).area
+    };
+    for unit in [1.0, 1e-3, 1e300] {
+        assert!((area(unit) - 6.0).abs() < 1e-9, "{unit}");
+    }
+}
+
+#[test]
 fn offsets_and_units_cost_no_digits() {
     let base = torus(30, 12);
     let moved = |scale: f64, offset: f64| {
@@ -236,6 +251,8 @@ fn bad_input_is_one_clear_error() {
     for n in [0, 3] {
         assert!(remesh(&surface, &params(n), &mut RunContext::default()).is_err());
     }
+    let uneven = RemeshParams { sizes: [vec![1e-300], vec![1.0; surface.n_vertices() - 1]].concat(), ..params(100) };
+    assert!(remesh(&surface, &uneven, &mut RunContext::default()).unwrap_err().to_string().contains("a million times"));
     let too_few = remesh(&Surface::new(&genus_3()).unwrap(), &params(5), &mut RunContext::default()).unwrap_err();
     assert!(too_few.to_string().contains("no fewer than"), "{too_few}");
     let bad = |change: &dyn Fn(&mut TriangleMesh)| {

@@ -36,7 +36,10 @@ use self::settle::settle;
 use self::start::start;
 use crate::error::Error;
 use crate::run::{Phase, Report, RunContext};
-use crate::surface::{Attribute, Features, Place, Surface, TriangleMesh};
+use crate::surface::{Attribute, Features, Place, Surface, TriangleMesh, weighted_area};
+
+/// The smallest size over the largest, at least.
+const SMALLEST_SIZE: f64 = 1e-6;
 
 /// What [`remesh`] can be told.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -73,7 +76,7 @@ impl RemeshParams {
     /// Checks the parameters, as [`remesh`] does before it begins.
     ///
     /// # Errors
-    /// [`Error::InvalidParameter`] for a value outside its range, or sizes that are not positive, or not as many as the surface has vertices.
+    /// [`Error::InvalidParameter`] for a value outside its range, or sizes that are not positive, differ more than a millionfold, or are not as many as the surface has vertices.
     pub fn validate(&self, surface: &Surface) -> Result<(), Error> {
         let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
         if self.n_points < 4 || self.n_points > crate::MAX_POINTS {
@@ -90,6 +93,14 @@ impl RemeshParams {
         }
         if let Some(size) = self.sizes.iter().find(|&&size| !(size > 0.0 && size.is_finite())) {
             return invalid("sizes", size.to_string(), "positive and finite");
+        }
+        let largest = self.sizes.iter().copied().fold(0.0, f64::max);
+        if let Some(size) = self.sizes.iter().find(|&&size| size < largest * SMALLEST_SIZE) {
+            return invalid(
+                "sizes",
+                format!("{size}, and {largest} elsewhere"),
+                "such that the largest is at most a million times the smallest",
+            );
         }
         self.method.validate()
     }
@@ -163,23 +174,29 @@ impl Vertex {
 pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) -> Result<(Remeshed, Report), Error> {
     params.validate(surface)?;
     let mut report = Report::new(params.method.name(), params.n_points);
-    let ones;
-    let sizes = if params.sizes.is_empty() {
-        ones = vec![1.0; surface.n_vertices()];
-        &ones
-    } else {
-        &params.sizes
-    };
-    let features = Features::new(surface, params.features_deg, start::spacing(surface, sizes, params.n_points));
+    let sizes = relative_sizes(surface, &params.sizes);
+    let features = Features::new(surface, params.features_deg, start::spacing(surface, params.n_points));
 
     // 1. Exactly so many vertices, with the surface's topology.
     run.enter(Phase::Triangulate);
-    let start = start(surface, &features, sizes, params.n_points, params.seed)?;
+    let start = start(surface, &features, &sizes, params.n_points, params.seed)?;
     report.triangulations = 1;
 
     // 2. They move until all is as it should be.
-    let live = settle(LiveSurface::new(surface, &features, sizes, start), params, run, &mut report)?;
+    let live = settle(LiveSurface::new(surface, &features, &sizes, start), params, run, &mut report)?;
     Ok((finished(surface, &live), report))
+}
+
+/// Sizes of which 1 is the mean, such that they ask for as many vertices as 1 everywhere.
+fn relative_sizes(surface: &Surface, sizes: &[f64]) -> Vec<f64> {
+    if sizes.is_empty() {
+        return vec![1.0; surface.n_vertices()];
+    }
+    // By the largest first, lest squares overflow.
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    let shares: Vec<f64> = sizes.iter().map(|size| size / largest).collect();
+    let mean = (surface.inner_area() / weighted_area(surface, &shares)).sqrt();
+    shares.into_iter().map(|share| share / mean).collect()
 }
 
 /// The mesh as it is given back.

@@ -9,15 +9,9 @@ use super::live::{Start, Vertex};
 use crate::error::Error;
 use crate::surface::{Features, Surface};
 
-/// The spacing of so many vertices on a surface, if the wanted spacing is 1 on average: the edge of equilateral triangles, of which there are twice as many as vertices.
-pub(super) fn spacing(surface: &Surface, sizes: &[f64], n_points: usize) -> f64 {
-    let of_triangle = |t: usize| {
-        let [a, b, c] = surface.corners(t);
-        let scale = surface.half_edges.triangle(t).iter().map(|&v| 1.0 / sizes[v as usize]).sum::<f64>() / 3.0;
-        0.5 * (b - a).cross(c - a).length() * scale * scale
-    };
-    let area: f64 = (0..surface.n_triangles()).map(of_triangle).sum();
-    (2.0 * area / (3f64.sqrt() * n_points as f64)).sqrt()
+/// The spacing of so many vertices on a surface: the edge of equilateral triangles, two for each.
+pub(super) fn spacing(surface: &Surface, n_points: usize) -> f64 {
+    (2.0 * surface.inner_area() / (3f64.sqrt() * n_points as f64)).sqrt()
 }
 
 /// Splits and collapses edges of the surface until exactly so many vertices are left.
@@ -25,7 +19,7 @@ pub(super) fn spacing(surface: &Surface, sizes: &[f64], n_points: usize) -> f64 
 /// # Errors
 /// [`Error::InvalidParameter`] for fewer points than the features and the topology need.
 pub(super) fn start(surface: &Surface, features: &Features, sizes: &[f64], n_points: usize, seed: u64) -> Result<Start, Error> {
-    let spacing = spacing(surface, sizes, n_points);
+    let spacing = spacing(surface, n_points);
     let mut draft = Draft::new(surface, features, sizes);
     // 1. Points along creases and borders.
     pin_chains(&mut draft, spacing);

@@ -22,6 +22,7 @@ pub use distance::{SurfaceDistance, surface_distance};
 pub(crate) use features::{Chain, Features};
 pub(crate) use poisson_disk::{poisson_disk, white};
 pub use quality::{CertificateBreach, SurfaceQuality, certificate, surface_quality};
+pub(crate) use sizing::weighted_area;
 pub use sizing::{SurfaceSizing, expected_vertices, surface_sizes};
 pub use triangle_mesh::{Attribute, TriangleMesh};
 pub(crate) use walk::Place;
@@ -46,6 +47,7 @@ pub struct Surface {
     sources: Vec<usize>,
     /// For each triangle the given one.
     pub(crate) faces: Vec<usize>,
+    /// How many vertices the given mesh has.
     n_given: usize,
     attributes: Vec<Attribute>,
     notes: Vec<String>,
@@ -267,17 +269,14 @@ impl Surface {
         TriangleMesh {
             vertices: self.points.iter().map(|&p| self.frame.outward(p)).collect(),
             triangles: self.half_edges.triangles().map(|t| t.map(|v| v as usize)).collect(),
-            attributes: self.attributes.iter().map(|attribute| self.at_vertices(attribute)).collect(),
+            attributes: { self.attributes.iter() }
+                .map(|Attribute { name, values }| Attribute { name: name.clone(), values: self.of_given(values) })
+                .collect(),
         }
     }
 
-    /// How many vertices the given mesh has.
-    fn n_given(&self) -> usize {
-        self.n_given
-    }
-
-    /// An attribute of the given mesh as one of the surface's vertices.
-    fn at_vertices(&self, Attribute { name, values }: &Attribute) -> Attribute {
-        Attribute { name: name.clone(), values: self.sources.iter().map(|&v| values[v]).collect() }
+    /// Numbers of the given mesh' vertices as those of the surface's.
+    fn of_given(&self, given: &[f64]) -> Vec<f64> {
+        self.sources.iter().map(|&v| given[v]).collect()
     }
 }

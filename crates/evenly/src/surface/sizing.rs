@@ -4,9 +4,9 @@ use std::collections::BinaryHeap;
 
 use serde::Serialize;
 
+use super::Surface;
 use super::feature_size::feature_sizes;
 use super::features::Features;
-use super::{Attribute, Surface};
 use crate::error::Error;
 use crate::triangulation::prev;
 
@@ -83,14 +83,14 @@ pub fn surface_sizes(surface: &Surface, sizing: &SurfaceSizing, n_points: Option
                 let there = if names.is_empty() { "there are none".to_owned() } else { format!("there are {}", names.join(", ")) };
                 return invalid("attr", format!("{name:?}, where {there}"), "an attribute of the mesh");
             };
-            surface.of_vertices(&attribute.values)
+            surface.of_given(&attribute.values)
         }
         SurfaceSizing::Given(numbers) => {
-            if numbers.len() != surface.n_given() {
-                let value = format!("{} numbers for {} vertices", numbers.len(), surface.n_given());
+            if numbers.len() != surface.n_given {
+                let value = format!("{} numbers for {} vertices", numbers.len(), surface.n_given);
                 return invalid("density", value, "a number for each vertex of the mesh");
             }
-            surface.of_vertices(numbers)
+            surface.of_given(numbers)
         }
     };
     if let Some(size) = sizes.iter().find(|&&size| !(size > 0.0 && size.is_finite())) {
@@ -99,7 +99,7 @@ pub fn surface_sizes(surface: &Surface, sizing: &SurfaceSizing, n_points: Option
     // Twice: the spacing depends on the sizes, and how fast they may grow on the spacing.
     for _ in 0..2 {
         if let Some(n) = n_points {
-            let scale = (expected(surface, &sizes) / n as f64).sqrt();
+            let scale = (vertices_of_area(weighted_area(surface, &sizes)) / n as f64).sqrt();
             sizes.iter_mut().for_each(|size| *size *= scale);
         }
         if !matches!(sizing, SurfaceSizing::Linear { .. }) {
@@ -113,17 +113,22 @@ pub fn surface_sizes(surface: &Surface, sizing: &SurfaceSizing, n_points: Option
 /// About how many vertices have room on a surface whose edges are to be so long, in input units, at its vertices.
 pub fn expected_vertices(surface: &Surface, sizes: &[f64]) -> f64 {
     let unit = surface.frame.length_outward(1.0);
-    expected(surface, sizes) * unit * unit
+    vertices_of_area(weighted_area(surface, sizes) * unit * unit)
 }
 
-/// The same, in the units inside.
-fn expected(surface: &Surface, sizes: &[f64]) -> f64 {
+/// How many vertices with a spacing of 1 an area has room for: equilateral triangles, two for each.
+fn vertices_of_area(area: f64) -> f64 {
+    area * 2.0 / 3f64.sqrt()
+}
+
+/// The area inside, each triangle's in squares of the mean size at its corners.
+pub(crate) fn weighted_area(surface: &Surface, sizes: &[f64]) -> f64 {
     let of_triangle = |t: usize| {
         let [a, b, c] = surface.corners(t);
         let scale = surface.half_edges.triangle(t).iter().map(|&v| 1.0 / sizes[v as usize]).sum::<f64>() / 3.0;
         0.5 * (b - a).cross(c - a).length() * scale * scale
     };
-    (0..surface.n_triangles()).map(of_triangle).sum::<f64>() * 2.0 / 3f64.sqrt()
+    (0..surface.n_triangles()).map(of_triangle).sum()
 }
 
 /// Sizes within a range around the middle one.
@@ -195,13 +200,5 @@ fn grade(surface: &Surface, sizes: &mut [f64]) {
                 }
             }
         }
-    }
-}
-
-impl Surface {
-    /// Numbers of the given vertices as those of the surface's.
-    fn of_vertices(&self, given: &[f64]) -> Vec<f64> {
-        let Attribute { values, .. } = self.at_vertices(&Attribute { name: String::new(), values: given.to_vec() });
-        values
     }
 }
