@@ -3,7 +3,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::live::{LiveSurface, SurfaceBuffer};
+use super::ground::SurfaceBuffer;
+use super::live::LiveSurface;
 use crate::surface::Facets;
 use crate::sweep::Ground;
 
@@ -33,15 +34,66 @@ impl LiveSurface<'_> {
             let mut free: Vec<u32> = corners[t].into_iter().filter(|&v| !self.is_fixed(v)).collect();
             free.sort_by(|&a, &b| self.at(a).distance(p).total_cmp(&self.at(b).distance(p)));
             let is_clear = |v: u32| kept.iter().all(|other| other.distance(p) >= APART * self.local_spacing(v));
-            let put = free.into_iter().filter(|&v| is_clear(v)).find(|&v| {
-                self.go(v, p - self.at(v), &mut buffer);
-                self.at(v).distance(p) < ARRIVED * self.local_spacing(v)
-            });
+            let put = free.into_iter().filter(|&v| is_clear(v)).find(|&v| self.put(v, p, &mut buffer));
             if let Some(v) = put {
                 self.fix(v);
                 kept.push(p);
             }
         }
         kept.len() - n_fixed
+    }
+
+    /// Puts a vertex at a place of the surface, or leaves it where it is.
+    fn put(&self, v: u32, p: DVec3, buffer: &mut SurfaceBuffer) -> bool {
+        let from = self.vertex(v);
+        let way = p - from.at;
+        if self.land(&from, p).at.distance(p) > ARRIVED * self.local_spacing(v) {
+            return false;
+        }
+        let SurfaceBuffer { moving, n_flips, .. } = buffer;
+        self.walk(v, moving);
+        if self.step(v, way, moving) {
+            return true;
+        }
+        // What is in the way may only be that the edges around are not Delaunay.
+        self.restore(v, moving, n_flips);
+        self.step(v, way, moving)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::remesh::start::start;
+    use crate::surface::{Features, Surface, TriangleMesh};
+
+    /// A thin star of eight points, which a coarse mesh cannot follow.
+    fn star() -> Surface {
+        let n = 16;
+        let rim = (0..n).map(|k| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(k) / f64::from(n));
+            let radius = if k % 2 == 0 { 1.0 } else { 0.4 };
+            [radius * cos, radius * sin, 0.0]
+        });
+        let vertices = [[0.0, 0.0, 0.1], [0.0, 0.0, -0.1]].into_iter().chain(rim).collect();
+        let at = |k: usize| 2 + k % n as usize;
+        let triangles = (0..n as usize).flat_map(|k| [[0, at(k), at(k + 1)], [1, at(k + 1), at(k)]]).collect();
+        Surface::new(&TriangleMesh { vertices, triangles, attributes: Vec::new() }).unwrap()
+    }
+
+    #[test]
+    fn a_place_that_cannot_be_reached_leaves_the_mesh_as_it_was() {
+        let surface = star();
+        let (features, sizes) = (Features::borders(&surface), vec![1.0; surface.n_vertices()]);
+        for (n, seed) in (40..80).zip(0..) {
+            let start = start(&surface, &features, &sizes, n, seed).unwrap();
+            let mut live = LiveSurface::new(&surface, &features, &sizes, start);
+            live.legalize();
+            let places = |live: &LiveSurface| (0..n as u32).map(|v| live.at(v)).collect::<Vec<_>>();
+            let before = places(&live);
+            let n_put = live.anchor(0.05);
+            let n_moved = places(&live).iter().zip(&before).filter(|(a, b)| a != b).count();
+            assert_eq!(n_moved, n_put, "{n}");
+        }
     }
 }

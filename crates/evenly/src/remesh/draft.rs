@@ -20,8 +20,6 @@ pub(super) struct Vertex {
     pub is_pinned: bool,
 }
 
-/// Edges that are collapsed or flipped may bend a triangle so far: the cosine of the turn.
-const LEAST_TURN: f64 = 0.1;
 /// Vertices have so many neighbours at most.
 const MOST_NEIGHBOURS: usize = 12;
 
@@ -217,31 +215,20 @@ impl<'a> Draft<'a> {
 
     /// Whether the edge of `h` is not Delaunay, and the other diagonal can be.
     fn should_flip(&self, h: u32) -> bool {
-        let [p, q, r, s] = self.quadrilateral(h);
-        let [a, b, c, d] = [p, q, r, s].map(|v| self.at(v));
-        if is_delaunay([a, b, c, d]) || r == s || self.find_edge(r, s).is_some() {
-            return false;
-        }
-        let normal = |a: DVec3, b: DVec3, c: DVec3| (b - a).cross(c - a);
-        let (old, new) = (normal(a, b, c) + normal(b, a, d), [normal(d, b, c), normal(c, a, d)]);
-        if !new.iter().all(|n| n.dot(old) > LEAST_TURN * n.length() * old.length()) {
-            return false;
-        }
-        let guard = Guard::FIRM;
-        let fit = |n: DVec3, corners: [u32; 3]| self.fit(n, corners);
-        guard.allows(
-            fit(normal(a, b, c), [p, q, r]).min(fit(normal(b, a, d), [q, p, s])),
-            fit(new[0], [s, q, r]).min(fit(new[1], [r, p, s])),
-        )
+        let corners @ [.., r, s] = self.quadrilateral(h);
+        let places = corners.map(|v| self.at(v));
+        !is_delaunay(places) && r != s && self.find_edge(r, s).is_none() && Guard::FIRM.allows_flip(places, corners.map(|v| self.normal(v)))
+    }
+
+    /// The surface's normal at a vertex; on creases there is none.
+    fn normal(&self, v: u32) -> Option<DVec3> {
+        let vertex = &self.vertices[v as usize];
+        (!vertex.is_on_crease).then_some(vertex.normal)
     }
 
     /// How well a triangle's normal fits the surface's at its corners, creases left out.
     fn fit(&self, normal: DVec3, corners: [u32; 3]) -> f64 {
-        let of_corner = |v: u32| {
-            let vertex = &self.vertices[v as usize];
-            (!vertex.is_on_crease).then_some(vertex.normal)
-        };
-        Guard::fit(normal, corners.map(of_corner))
+        Guard::fit(normal, corners.map(|v| self.normal(v)))
     }
 
     fn quadrilateral(&self, h: u32) -> [u32; 4] {
@@ -392,7 +379,8 @@ impl<'a> Draft<'a> {
         for (new, &v) in (0..).zip(order) {
             number[v as usize] = new;
         }
-        let live: Vec<usize> = (0..self.mesh.n_triangles()).filter(|&t| self.mesh.origin[3 * t] != BORDER).collect();
+        let mut live: Vec<usize> = (0..self.mesh.n_triangles()).filter(|&t| self.mesh.origin[3 * t] != BORDER).collect();
+        live.sort_by_cached_key(|&t| self.mesh.triangle(t).map(|v| number[v as usize]).into_iter().min());
         let mut slots = vec![BORDER; self.mesh.n_triangles()];
         for (new, &t) in (0..).zip(&live) {
             slots[t] = new;

@@ -2,9 +2,8 @@
 //!
 //! This is sample elimination by the mesh's own neighbourhoods, so it never jumps through thin parts; the lengths are a little random, so that the points are not regular.
 
-use std::collections::BinaryHeap;
-
 use super::draft::Draft;
+use super::queue::Queue;
 use crate::triangulation::{BORDER, next, prev};
 
 /// Edges are split until none is longer than this, in the wanted spacings, and there are so many times the wanted vertices.
@@ -20,52 +19,32 @@ const LOOSE: f64 = 0.5;
 /// How far collapses may bend a triangle, as a cosine; the next where no more can be collapsed.
 const TURNS: [f64; 5] = [0.5, 0.2, 0.0, -0.3, -0.9];
 
-/// An edge in a queue: the first in order comes first.
-#[derive(PartialEq)]
-struct Entry {
-    order: f64,
-    ends: [u32; 2],
-}
-
-impl Eq for Entry {}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        // A heap gives the greatest first.
-        other.order.total_cmp(&self.order).then(other.ends.cmp(&self.ends))
-    }
-}
-
 /// Splits the longest edges until there are vertices enough to choose from.
 pub(super) fn subdivide(draft: &mut Draft, spacing: f64, n_wanted: usize) {
-    let entry = |draft: &Draft, h: u32| {
+    let mut queue = Queue::default();
+    let add = |queue: &mut Queue, draft: &Draft, h: u32| {
         let length = draft.length(h);
-        (length > SHORTEST * spacing).then(|| Entry { order: -length, ends: [draft.mesh.origin[h as usize], draft.mesh.target(h)] })
+        if length > SHORTEST * spacing {
+            queue.push(1.0 / length, [draft.mesh.origin[h as usize], draft.mesh.target(h)]);
+        }
     };
     let all = (0..draft.mesh.origin.len() as u32).filter(|&h| draft.mesh.twin[h as usize] == BORDER || draft.mesh.twin[h as usize] > h);
-    let mut queue: BinaryHeap<Entry> = all.filter_map(|h| entry(draft, h)).collect();
+    all.for_each(|h| add(&mut queue, draft, h));
     let enough = CHOICE * n_wanted as f64;
     let most = MOST_TIMES * n_wanted.max(100) + draft.n_live;
-    while let Some(Entry { order, ends: [a, b] }) = queue.pop() {
-        let is_short = -order <= LONGEST * spacing;
+    let mut ring = Vec::new();
+    while let Some([a, b]) = queue.pop() {
+        // Each edge is split once, and never comes again.
+        let Some(h) = draft.find(a, b) else { continue };
+        let is_short = draft.length(h) <= LONGEST * spacing;
         if is_short && draft.n_live as f64 >= enough || draft.n_live >= most {
             break;
         }
-        // Each edge is split once, and never comes again.
-        let Some(h) = draft.find(a, b) else { continue };
         let m = draft.split(h, 0.5);
-        let ring: Vec<u32> = draft.mesh.around(draft.outgoing[m as usize]).flat_map(|h| [h, prev(h)]).collect();
-        queue.extend(
-            ring.into_iter()
-                .filter(|&h| { draft.mesh.twin[h as usize] == BORDER } || draft.mesh.origin[h as usize] == m)
-                .filter_map(|h| entry(draft, h)),
-        );
+        ring.clear();
+        ring.extend(draft.mesh.around(draft.outgoing[m as usize]).flat_map(|h| [h, prev(h)]));
+        ring.retain(|&h| draft.mesh.twin[h as usize] == BORDER || draft.mesh.origin[h as usize] == m);
+        ring.iter().for_each(|&h| add(&mut queue, draft, h));
     }
 }
 
@@ -92,18 +71,19 @@ pub(super) fn eliminate(draft: &mut Draft, n_wanted: usize, seed: u64) -> bool {
 
 /// Collapses what can be, while more than is wanted is left.
 fn collapse_all(draft: &mut Draft, n_wanted: usize, turn: f64, seed: u64) {
-    let entry = |draft: &Draft, h: u32| {
+    let mut queue = Queue::default();
+    let add = |queue: &mut Queue, draft: &Draft, h: u32| {
         let ends = [draft.mesh.origin[h as usize], draft.mesh.target(h)];
         // On creases first, so that what is beside them is not in the way.
         let is_loose = draft.is_crease[h as usize] && ends.iter().any(|&v| draft.is_loose(v));
         let share = if is_loose { LOOSE } else { 1.0 };
-        Entry { order: share * draft.length(h) * (1.0 + RANDOM * unit(seed, ends)), ends }
+        queue.push(share * draft.length(h) * (1.0 + RANDOM * unit(seed, ends)), ends);
     };
     let is_first = |draft: &Draft, h: u32| draft.mesh.twin[h as usize] == BORDER || h < draft.mesh.twin[h as usize];
     let all = (0..draft.mesh.origin.len() as u32).filter(|&h| draft.mesh.origin[h as usize] != BORDER && is_first(draft, h));
-    let mut queue: BinaryHeap<Entry> = all.map(|h| entry(draft, h)).collect();
+    all.for_each(|h| add(&mut queue, draft, h));
     let (mut suspects, mut ring) = (Vec::new(), Vec::new());
-    while let Some(Entry { ends: [a, b], .. }) = queue.pop() {
+    while let Some([a, b]) = queue.pop() {
         let has_enough = draft.n_live - draft.n_loose <= n_wanted;
         if has_enough && draft.n_loose == 0 {
             return;
@@ -117,11 +97,11 @@ fn collapse_all(draft: &mut Draft, n_wanted: usize, turn: f64, seed: u64) {
         let kept = if gone == a { b } else { a };
         suspects.clear();
         suspects.extend(draft.mesh.around(draft.outgoing[kept as usize]).flat_map(|h| [h, next(h)]));
-        draft.legalize(&mut suspects, |draft, h| queue.push(entry(draft, h)));
+        draft.legalize(&mut suspects, |draft, h| add(&mut queue, draft, h));
         ring.clear();
         ring.extend(draft.mesh.around(draft.outgoing[kept as usize]).flat_map(|h| [h, prev(h)]));
         ring.retain(|&h| draft.mesh.twin[h as usize] == BORDER || draft.mesh.origin[h as usize] == kept);
-        queue.extend(ring.iter().map(|&h| entry(draft, h)));
+        ring.iter().for_each(|&h| add(&mut queue, draft, h));
     }
 }
 

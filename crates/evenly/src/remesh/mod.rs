@@ -17,15 +17,19 @@ mod anchors;
 mod chains;
 mod draft;
 mod eliminate;
+mod flips;
+mod ground;
 mod live;
 mod method;
 mod moves;
 mod polish;
+mod queue;
 mod sample;
 mod settle;
 mod shape;
 mod stars;
 mod start;
+mod targets;
 
 use serde::Serialize;
 

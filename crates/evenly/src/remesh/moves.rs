@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::live::{LiveSurface, SurfaceBuffer};
+use super::ground::SurfaceBuffer;
+use super::live::LiveSurface;
 use super::shape::Guard;
 use crate::points::Random;
 use crate::sweep::Ground;
@@ -62,13 +63,13 @@ impl LiveSurface<'_> {
             let after = ring.get(k + 1).unwrap_or(&ring[0]);
             let old = spoke.way.cross(after.way);
             let new = (spoke.way - way).cross(after.way - way);
-            let (old_length, new_length) = (old.length(), new.length());
-            if !(new_length > room && new.dot(old) > LEAST_TURN * new_length * old_length) {
+            let (dot, squared) = (new.dot(old), new.length_squared());
+            if !(squared > room * room && dot > 0.0 && dot * dot > LEAST_TURN * LEAST_TURN * squared * old.length_squared()) {
                 return false;
             }
             let [b, c] = [spoke, after].map(|spoke| (!self.is_fixed(spoke.vertex)).then(|| self.normal(spoke.vertex)));
-            let after = Guard::fit(new, [Some(to.normal), b, c]);
-            after > guard.0 || guard.allows(Guard::fit(old, [Some(from.normal), b, c]), after)
+            let corners = [Some(to.normal), b, c];
+            guard.holds(new, corners) || guard.allows(Guard::fit(old, [Some(from.normal), b, c]), Guard::fit(new, corners))
         };
         if !ring.iter().enumerate().all(is_allowed) {
             return false;

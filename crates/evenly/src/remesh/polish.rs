@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::live::{LiveSurface, SurfaceBuffer, Vertex};
+use super::ground::SurfaceBuffer;
+use super::live::{LiveSurface, Vertex};
 use crate::points::Random;
 use crate::sweep::Ground;
 use crate::triangulation::{BORDER, Spoke};

@@ -49,7 +49,7 @@ pub(super) fn settle<'a>(
     let targets = targets(&params.method);
     for _ in 0..RELEASES {
         let has_missed = report.outcome == Outcome::Converged && targets.is_some_and(|targets| !sweep.ground_mut().meets(&targets));
-        if !has_missed || targets.is_none_or(|targets| sweep.ground_mut().release(&targets) == 0) {
+        if !has_missed || targets.is_none_or(|targets| sweep.ground_mut().release_missed(&targets) == 0) {
             break;
         }
         sweep.change_rule(report.iterations);

@@ -5,7 +5,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::live::{LiveSurface, SurfaceBuffer};
+use super::ground::SurfaceBuffer;
+use super::live::LiveSurface;
 use crate::star::{Senses, Star, Wedge};
 use crate::sweep::Ground;
 use crate::triangulation::{BORDER, Spoke};

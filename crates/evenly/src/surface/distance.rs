@@ -67,8 +67,24 @@ impl Facets {
 
     /// The nearest triangle, and how far it is.
     pub fn nearest(&self, p: DVec3) -> Option<(usize, f64)> {
-        let distance_squared = |t: u32| nearest_in_triangle(self.corners[t as usize], p).0.distance_squared(p);
+        let distance_squared = |t: u32| self.distance_squared(t, p);
         self.tree.nearest(p, f64::INFINITY, distance_squared).map(|(t, distance)| (t as usize, distance.sqrt()))
+    }
+
+    /// The square of the distance to the nearest triangle, which then replaces the guess: found soon where the guess is near.
+    fn nearest_squared(&self, p: DVec3, guess: &mut u32) -> f64 {
+        let most = self.distance_squared(*guess, p);
+        match self.tree.nearest(p, most.sqrt(), |t| self.distance_squared(t, p)) {
+            Some((t, squared)) => {
+                *guess = t;
+                squared.min(most)
+            }
+            None => most,
+        }
+    }
+
+    fn distance_squared(&self, t: u32, p: DVec3) -> f64 {
+        nearest_in_triangle(self.corners[t as usize], p).0.distance_squared(p)
     }
 }
 
@@ -83,18 +99,9 @@ struct Way {
 
 fn one_way(from: &Surface, to: &Surface) -> Way {
     let facets = Facets::new((0..to.n_triangles()).map(|t| to.corners(t)).collect());
-    let distance_squared = |p: DVec3| {
-        let nearest = facets.nearest(to.frame.inward(from.frame.outward(p)));
-        nearest.map_or(0.0, |(_, distance)| distance * distance)
-    };
+    let distance_squared = |p: DVec3, guess: &mut u32| facets.nearest_squared(to.frame.inward(from.frame.outward(p)), guess);
     let density = PLACES / from.inner_area();
-    // The sum of the squares, and the largest of them with its place.
-    let sum_up = |(sum, most): (f64, (f64, DVec3)), p: DVec3| {
-        let distance = distance_squared(p);
-        (sum + distance, if distance > most.0 { (distance, p) } else { most })
-    };
-    let nothing = (0.0, (-1.0, DVec3::ZERO));
-    let of_triangle = |t: usize| {
+    let of_triangle = |guess: &mut u32, t: usize| {
         let [a, b, c] = from.corners(t);
         let area = 0.5 * (b - a).cross(c - a).length();
         let n = ((area * density).ceil() as usize).max(PLACES_A_TRIANGLE);
@@ -103,11 +110,15 @@ fn one_way(from: &Surface, to: &Surface) -> Way {
             let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
             a + u * (b - a) + v * (c - a)
         });
-        let (sum, most) = places.fold(nothing, sum_up);
+        // The sum of the squares, and the largest of them with its place.
+        let (sum, most) = places.fold((0.0, (-1.0, DVec3::ZERO)), |(sum, most), p| {
+            let distance = distance_squared(p, guess);
+            (sum + distance, if distance > most.0 { (distance, p) } else { most })
+        });
         (area, sum / n as f64 * area, most)
     };
-    let triangles: Vec<(f64, f64, (f64, DVec3))> = (0..from.n_triangles()).into_par_iter().map(of_triangle).collect();
-    let vertices: Vec<(f64, DVec3)> = from.points.par_iter().map(|&p| (distance_squared(p), p)).collect();
+    let triangles: Vec<(f64, f64, (f64, DVec3))> = (0..from.n_triangles()).into_par_iter().map_init(|| 0, of_triangle).collect();
+    let vertices: Vec<(f64, DVec3)> = from.points.par_iter().map_init(|| 0, |guess, &p| (distance_squared(p, guess), p)).collect();
     let (area, sum) = triangles.iter().fold((0.0, 0.0), |(area, sum), t| (area + t.0, sum + t.1));
     let all = vertices.into_iter().chain(triangles.into_iter().map(|t| t.2));
     let (farthest, place) = all.fold((0.0, DVec3::ZERO), |best, other| if other.0 > best.0 { other } else { best });

@@ -1,5 +1,6 @@
 //! How long edges are to be where: by curvature, by the local feature size, along an axis, or as the input says.
 
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use serde::Serialize;
@@ -164,30 +165,15 @@ fn curvatures(surface: &Surface) -> Vec<f64> {
     curvature
 }
 
-/// A size that waits to be handed on; the smallest comes first.
-#[derive(PartialEq)]
-struct Waiting(f64, u32);
-
-impl Eq for Waiting {}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        other.0.total_cmp(&self.0).then(other.1.cmp(&self.1))
-    }
-}
-
 /// Makes sizes smaller where they would grow too fast along edges.
 fn grade(surface: &Surface, sizes: &mut [f64]) {
     let mesh = &surface.half_edges;
     let outgoing = mesh.outgoing(surface.n_vertices());
-    let mut queue: BinaryHeap<Waiting> = (0..).zip(&*sizes).map(|(v, &size)| Waiting(size, v)).collect();
-    while let Some(Waiting(size, v)) = queue.pop() {
+    // The smallest first: positive numbers are in the order of their bits.
+    let waiting = |size: f64, v: u32| Reverse((size.to_bits(), v));
+    let mut queue: BinaryHeap<_> = (0..).zip(&*sizes).map(|(v, &size)| waiting(size, v)).collect();
+    while let Some(Reverse((bits, v))) = queue.pop() {
+        let size = f64::from_bits(bits);
         if size > sizes[v as usize] || outgoing[v as usize] == u32::MAX {
             continue;
         }
@@ -196,7 +182,7 @@ fn grade(surface: &Surface, sizes: &mut [f64]) {
                 let most = size + GRADATION * surface.points[v as usize].distance(surface.points[other as usize]);
                 if sizes[other as usize] > most {
                     sizes[other as usize] = most;
-                    queue.push(Waiting(most, other));
+                    queue.push(waiting(most, other));
                 }
             }
         }

@@ -33,9 +33,9 @@ impl Place {
 impl Features {
     /// The surface's normal at a place, rounded between creases.
     pub fn normal(&self, place: &Place) -> DVec3 {
-        let h = 3 * place.face as usize;
-        let [a, b, c] = [0, 1, 2].map(|k| self.corner_normals[h + k] * place.weights[k]);
-        (a + b + c).normalize_or_zero()
+        let normals = &self.corner_normals[3 * place.face as usize..][..3];
+        let [a, b, c] = place.weights;
+        (a * normals[0] + b * normals[1] + c * normals[2]).normalize_or_zero()
     }
 }
 

@@ -16,11 +16,13 @@ const SIDE: f64 = 12.0;
 const BLOCKS: u32 = 4;
 /// Blocks that a territory holds beyond its cell, on each side.
 const REACH: u32 = 2;
+/// Points in a cell, where one thread works alone: as many as its fast memory holds.
+const RUN: usize = 256;
 /// The most cells along an axis: a mark has 15 bits for a block's number.
 const MAX_CELLS: u32 = 1 << 12;
 
 pub(crate) struct Cells {
-    /// Cells along each axis: powers of two, so that a block's number wraps by masking.
+    /// Along each axis those that threads share: powers of two, so that a block's number wraps by masking.
     n_cells: [u32; 2],
     /// The points of each cell, in order of their index.
     members: Vec<u32>,
@@ -43,9 +45,11 @@ impl Cells {
         cells
     }
 
-    /// One cell with all points, for one thread.
-    pub fn one(n_points: usize) -> Self {
-        Self { n_cells: [1, 1], members: (0..n_points as u32).collect(), starts: vec![0, n_points as u32] }
+    /// For one thread: a cell after the other, each of points that follow each other in memory.
+    pub fn in_turn(n_points: usize) -> Self {
+        let n = n_points as u32;
+        let starts = (0..n).step_by(RUN).chain([n]).collect();
+        Self { n_cells: [1, 1], members: (0..n).collect(), starts }
     }
 
     fn assign(&mut self, mesh: &mut LiveMesh) {
@@ -75,13 +79,15 @@ impl Cells {
     }
 
     /// The cells of each colour.
-    pub fn colours(&self) -> impl Iterator<Item = Vec<u32>> + use<> {
+    pub fn colours(&self) -> Vec<Vec<u32>> {
         let [width, height] = self.n_cells;
+        if self.n_cells == [1, 1] {
+            return (0..self.starts.len() as u32 - 1).map(|cell| vec![cell]).collect();
+        }
         let parities = |n: u32| 0..n.min(2);
-        parities(height).flat_map(move |y| parities(width).map(move |x| (x, y))).map(move |(x, y)| {
-            let rows = (y..height).step_by(2);
-            rows.flat_map(|row| (x..width).step_by(2).map(move |column| row * width + column)).collect()
-        })
+        let cells =
+            |x: u32, y: u32| (y..height).step_by(2).flat_map(move |row| (x..width).step_by(2).map(move |column| row * width + column));
+        parities(height).flat_map(|y| parities(width).map(move |x| cells(x, y).collect())).collect()
     }
 
     /// The points of a cell.
@@ -144,6 +150,6 @@ mod tests {
         let (mesh, cells) = divided([20.0, 1.0], 50_000);
         let side = mesh.domain().size / DVec2::new(f64::from(cells.n_cells[0]), f64::from(cells.n_cells[1])) / mesh.spacing();
         assert!(side.cmpge(DVec2::splat(SIDE)).all() && side.cmplt(DVec2::splat(2.0 * SIDE)).all(), "{side}");
-        assert_eq!(cells.colours().map(|colour| colour.len()).sum::<usize>() as u32, cells.n_cells[0] * cells.n_cells[1]);
+        assert_eq!(cells.colours().iter().map(|colour| colour.len()).sum::<usize>() as u32, cells.n_cells[0] * cells.n_cells[1]);
     }
 }
