@@ -11,7 +11,7 @@ use evenly::{
 };
 use proptest::prelude::*;
 
-use solids::{cone, cube, genus_3, l_shape, moebius, needle, patch, sheet, sphere, torus, touching_spheres};
+use solids::{cone, cube, genus_3, l_shape, moebius, needle, patch, sheet, slice, sphere, torus, touching_spheres};
 
 fn remeshed(surface: &Surface, n_points: usize, seed: u64) -> (Remeshed, Report) {
     remesh(surface, &RemeshParams { n_points, seed, ..RemeshParams::default() }, &mut RunContext::default()).unwrap()
@@ -95,6 +95,27 @@ fn creases_corners_and_borders_are_kept() {
     let is_on_border = |p: &[f64; 3]| p[..2].iter().any(|&x| x.abs() < 1e-9 || (x - 1.0).abs() < 1e-9);
     let n_border = made.mesh.vertices.iter().filter(|p| is_on_border(p)).count();
     assert_eq!(n_border, Surface::new(&made.mesh).unwrap().n_border_edges());
+}
+
+#[test]
+fn sharp_corners_leave_no_very_obtuse_triangle_beside_them() {
+    for (angle, seed) in [(15.0, 1), (20.0, 2), (25.0, 3), (32.0, 4)] {
+        let surface = Surface::new(&slice(angle)).unwrap();
+        let (made, _) = remeshed(&surface, 1500, seed);
+        let quality = surface_quality(&Surface::new(&made.mesh).unwrap());
+        assert!(quality.max_angle_deg < 100.0 && quality.min_angle_deg > angle - 5.0, "{angle}: {quality:?}");
+    }
+}
+
+#[test]
+fn the_tip_of_a_cone_of_many_thin_facets_is_kept_and_not_crowded() {
+    let surface = Surface::new(&cone(40)).unwrap();
+    for (n, seed) in [(637, 1), (2000, 1), (2000, 2)] {
+        let (made, _) = remeshed(&surface, n, seed);
+        assert!(made.mesh.vertices.contains(&[0.0, 0.0, 2.0]));
+        let quality = surface_quality(&Surface::new(&made.mesh).unwrap());
+        assert!(quality.min_angle_deg > 30.0 && quality.max_angle_deg < 92.0, "{quality:?}");
+    }
 }
 
 #[test]

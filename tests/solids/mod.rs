@@ -173,3 +173,12 @@ pub fn two_at_an_edge() -> TriangleMesh {
     let triangles = [tetrahedron([0, 1, 2, 3]), tetrahedron([0, 1, 4, 5])].concat();
     mesh(vertices, triangles)
 }
+
+/// A slice of a cake: two sides of length 1 at an angle in degrees, half as high.
+pub fn slice(angle_deg: f64) -> TriangleMesh {
+    let (sin, cos) = angle_deg.to_radians().sin_cos();
+    let base = [[0.0, 0.0], [1.0, 0.0], [cos, sin]];
+    let vertices = [0.0, 0.5].into_iter().flat_map(|z| base.map(|[x, y]| [x, y, z])).collect();
+    let sides = (0..3).flat_map(|k| [[k, (k + 1) % 3, 3 + (k + 1) % 3], [k, 3 + (k + 1) % 3, 3 + k]]);
+    mesh(vertices, [[0, 2, 1], [3, 4, 5]].into_iter().chain(sides).collect())
+}

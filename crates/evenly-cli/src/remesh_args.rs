@@ -84,7 +84,7 @@ pub struct RemeshWishes {
     /// Edges at which the surface turns by more than this are kept, and tips; borders are in any case; off for borders alone
     #[arg(long, value_name = "ANGLE", default_value = "40deg", value_parser = parse_features, help_heading = "Shape")]
     pub features: Features,
-    /// How far the input may be from the mesh: where it is farther, a vertex is put and kept; off for as it comes [default: 0.45 spacings]
+    /// How far the input may be from the mesh: where it is farther, a vertex is put and kept; off for as it comes [default: 0.45 spacings, 0.35 with --density]
     #[arg(long, value_name = "D", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Shape")]
     pub tolerance: Option<Target>,
     /// Mend what can be without guessing: turn triangles that run the wrong way, separate sheets that touch, cut open what is left

@@ -30,6 +30,9 @@ const FLAGS: [(&str, &str); 9] = [
     ("max_passes", "iterations"),
 ];
 
+/// The distance at which vertices are put on what stands out where sizes vary, in spacings: who varies them wants a mesh that is near.
+const SIZED_TOLERANCE: f64 = 0.35;
+
 /// A new mesh, and what there is to say of it.
 pub struct Made {
     /// The mesh, and where its vertices lie on the one that was given.
@@ -81,8 +84,8 @@ pub fn remeshed(surface: &Surface, name: &Path, wishes: &RemeshWishes, run: &mut
     let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
     let spacing = (2.0 * surface.area() / (3f64.sqrt() * n_points as f64)).sqrt();
     let method = method(wishes);
-    let defaults = RemeshParams::default();
-    let tolerance = wishes.tolerance.map_or(defaults.tolerance, |target| target.0.map(|length| length / spacing));
+    let default = if sizes.is_empty() { RemeshParams::default().tolerance } else { Some(SIZED_TOLERANCE) };
+    let tolerance = wishes.tolerance.map_or(default, |target| target.0.map(|length| length / spacing));
     let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, seed: wishes.seed };
     let (remeshed, report) = remesh(surface, &params, run).map_err(told)?;
     let made = Surface::repaired(&remeshed.mesh)?;

@@ -14,14 +14,15 @@ const APART: f64 = 3.0;
 const ARRIVED: f64 = 1e-6;
 
 impl LiveSurface<'_> {
-    /// Puts the nearest vertex to each place of the surface that is farther than `tolerance` spacings from the mesh, the farthest first. Returns how many it has put.
+    /// Puts the nearest vertex to each place of the surface that is farther than `tolerance` spacings from the mesh, the farthest first; where the spacing is wider than the mean, that
+    /// counts. Returns how many it has put.
     pub fn anchor(&mut self, tolerance: f64) -> usize {
         let corners: Vec<[u32; 3]> = self.half_edges().triangles().collect();
         let facets = Facets::new(corners.iter().map(|t| t.map(|v| self.at(v))).collect());
-        // How far each vertex of the surface is, in the spacings there, and the triangle that is nearest.
+        // How far each vertex of the surface is, in spacings, and the triangle that is nearest.
         let far = |&p: &DVec3| {
             let (t, distance) = facets.nearest(p)?;
-            let spacing = self.local_spacing(corners[t][0]);
+            let spacing = self.local_spacing(corners[t][0]).min(self.spacing());
             (distance > tolerance * spacing).then_some((distance / spacing, t, p))
         };
         let mut places: Vec<(f64, usize, DVec3)> = self.surface_points().par_iter().filter_map(far).collect();

@@ -1,53 +1,121 @@
 //! Points along creases and borders: evenly spaced from corner to corner, before anything else, and there they stay.
+//!
+//! Where two chains meet at a sharp angle, the points on both alternate: the triangles between them have right angles then, where points side by side would leave obtuse ones.
+
+use std::collections::BTreeMap;
 
 use super::draft::Draft;
 use crate::surface::Chain;
 
 /// The gaps between them, in the wanted spacings.
 const GAP: f64 = 1.1;
+/// A corner is sharp below this, in degrees.
+const SHARP_DEG: f64 = 35.0;
 /// A place so near to the end of an edge, relative to its length, is that end.
 const AT_END: f64 = 1e-6;
 
-/// Pins the corners, and points between them so many spacings apart.
-pub(super) fn pin_chains(draft: &mut Draft, spacing: f64) {
-    let features = draft.features;
-    for chain in &features.chains {
-        pin_chain(draft, chain, spacing);
+/// Where a chain's points are to be; lengths in the wanted spacings, so that gaps vary as they do.
+struct Plan {
+    /// Of each step.
+    lengths: Vec<f64>,
+    total: f64,
+    n_gaps: usize,
+    /// The first gap and the last, where a corner there is sharp.
+    at_corners: [Option<f64>; 2],
+}
+
+impl Plan {
+    fn new(draft: &Draft, chain: &Chain, spacing: f64) -> Self {
+        let lengths: Vec<f64> = chain.steps().map(|(a, b)| weighted(draft, a, b)).collect();
+        let total: f64 = lengths.iter().sum();
+        let least = if chain.is_closed { 3 } else { 1 };
+        let n_gaps = ((total / (GAP * spacing)).round() as usize).max(least);
+        Self { lengths, total, n_gaps, at_corners: [None; 2] }
+    }
+
+    fn gap(&self) -> f64 {
+        self.total / self.n_gaps as f64
+    }
+
+    /// How far along the chain the points inside are.
+    fn places(&self) -> Vec<f64> {
+        let [first, last] = self.at_corners.map(|gap| gap.unwrap_or(self.gap()));
+        match self.n_gaps {
+            ..2 => Vec::new(),
+            2 if self.at_corners[0].is_none() => vec![self.total - last],
+            2 => vec![first],
+            n => {
+                let gap = (self.total - first - last) / (n - 2) as f64;
+                (0..n - 1).map(|k| first + k as f64 * gap).collect()
+            }
+        }
     }
 }
 
-fn pin_chain(draft: &mut Draft, chain: &Chain, spacing: f64) {
+/// Pins the corners, and points between them so many spacings apart.
+pub(super) fn pin_chains(draft: &mut Draft, spacing: f64) {
+    let chains = &draft.features.chains;
+    let mut plans: Vec<Plan> = chains.iter().map(|chain| Plan::new(draft, chain, spacing)).collect();
+    fit_sharp_corners(draft, chains, &mut plans);
+    for (chain, plan) in chains.iter().zip(&plans) {
+        pin_chain(draft, chain, plan);
+    }
+}
+
+/// Where two chains meet at a sharp angle, the first point of the one stands at the foot of that of the other.
+fn fit_sharp_corners(draft: &Draft, chains: &[Chain], plans: &mut [Plan]) {
+    // The ends of chains at each vertex.
+    let mut ends: BTreeMap<u32, Vec<(usize, usize)>> = BTreeMap::new();
+    for (k, chain) in chains.iter().enumerate().filter(|(_, chain)| !chain.is_closed) {
+        let n = chain.vertices.len();
+        ends.entry(chain.vertices[0]).or_default().push((k, 0));
+        ends.entry(chain.vertices[n - 1]).or_default().push((k, 1));
+    }
+    let way = |&(k, end): &(usize, usize)| {
+        let all = &chains[k].vertices;
+        let [from, to] = if end == 0 { [all[0], all[1]] } else { [all[all.len() - 1], all[all.len() - 2]] };
+        (draft.at(to) - draft.at(from)).normalize_or_zero()
+    };
+    let gaps: Vec<f64> = plans.iter().map(Plan::gap).collect();
+    let least_cos = libm::cos(SHARP_DEG.to_radians());
+    for at in ends.values() {
+        for (k, one) in at.iter().enumerate() {
+            for other in &at[..k] {
+                let cos = way(one).dot(way(other));
+                let (&(short, end), &(long, _)) = if gaps[one.0] < gaps[other.0] { (one, other) } else { (other, one) };
+                let foot = &mut plans[short].at_corners[end];
+                if cos > least_cos && foot.is_none() {
+                    *foot = Some(cos * gaps[long]);
+                }
+            }
+        }
+    }
+}
+
+fn pin_chain(draft: &mut Draft, chain: &Chain, plan: &Plan) {
     let steps: Vec<(u32, u32)> = chain.steps().collect();
-    // In the wanted spacings, so that gaps vary as they do.
-    let lengths: Vec<f64> = steps.iter().map(|&(a, b)| weighted(draft, a, b)).collect();
-    let total: f64 = lengths.iter().sum();
-    let least = if chain.is_closed { 3 } else { 1 };
-    let n_gaps = ((total / (GAP * spacing)).round() as usize).max(least);
     draft.pin(chain.vertices[0]);
     draft.pin(steps[steps.len() - 1].1);
-    let (mut k, mut behind) = (1, 0.0);
-    for (&(a, b), length) in steps.iter().zip(lengths) {
+    let mut places = plan.places().into_iter().peekable();
+    let mut behind = 0.0;
+    for (&(a, b), length) in steps.iter().zip(&plan.lengths) {
         let mut at = a;
         let mut from = 0.0;
-        while k < n_gaps {
-            let to = (total * k as f64 / n_gaps as f64 - behind) / length;
-            if to > 1.0 - AT_END {
-                break;
-            }
-            k += 1;
+        // Relative to this step.
+        let share = |place: &f64| (place - behind) / length;
+        while let Some(to) = places.next_if(|place| share(place) <= 1.0 - AT_END).map(|place| share(&place)) {
             if to - from <= AT_END {
                 draft.pin(at);
             } else if let Some(h) = draft.find_edge(at, b) {
-                let share = (to - from) / (1.0 - from);
-                at = draft.split(h, if draft.mesh.origin[h as usize] == at { share } else { 1.0 - share });
+                let part = (to - from) / (1.0 - from);
+                at = draft.split(h, if draft.mesh.origin[h as usize] == at { part } else { 1.0 - part });
                 draft.pin(at);
                 from = to;
             }
         }
         // A place at the very end of the edge.
-        if k < n_gaps && (total * k as f64 / n_gaps as f64 - behind) / length <= 1.0 + AT_END {
+        if places.next_if(|place| share(place) <= 1.0 + AT_END).is_some() {
             draft.pin(b);
-            k += 1;
         }
         behind += length;
     }

@@ -220,13 +220,13 @@ impl<'a> Draft<'a> {
         !is_delaunay(places) && r != s && self.find_edge(r, s).is_none() && Guard::FIRM.allows_flip(places, corners.map(|v| self.normal(v)))
     }
 
-    /// The surface's normal at a vertex; on creases there is none.
+    /// The surface's normal at a vertex; on creases and at tips there is none.
     fn normal(&self, v: u32) -> Option<DVec3> {
         let vertex = &self.vertices[v as usize];
-        (!vertex.is_on_crease).then_some(vertex.normal)
+        (!vertex.is_on_crease && !vertex.is_pinned).then_some(vertex.normal)
     }
 
-    /// How well a triangle's normal fits the surface's at its corners, creases left out.
+    /// How well a triangle's normal fits the surface's at its corners, where it has one.
     fn fit(&self, normal: DVec3, corners: [u32; 3]) -> f64 {
         Guard::fit(normal, corners.map(|v| self.normal(v)))
     }

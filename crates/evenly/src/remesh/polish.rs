@@ -8,9 +8,9 @@ use crate::points::Random;
 use crate::sweep::Ground;
 use crate::triangulation::{BORDER, Spoke};
 
-/// Angles are bad above the one and below the other, in degrees.
-const LARGEST_DEG: f64 = 89.5;
-const SMALLEST_DEG: f64 = 32.0;
+/// An obtuse angle counts so many times as much as one that only misses its target; and so does what is half a degree below.
+const OBTUSE: f64 = 100.0;
+const OBTUSE_DEG: f64 = 89.5;
 /// Rounds over all that is bad, and over what is around it.
 const ROUNDS: usize = 30;
 /// The first step, in spacings, how often it is halved, and the directions that are tried each time.
@@ -18,27 +18,44 @@ const STEP: f64 = 0.2;
 const HALVINGS: usize = 5;
 const DIRECTIONS: usize = 6;
 
-/// How bad a triangle is: 0 if it is not.
-fn badness(a: DVec3, b: DVec3, c: DVec3) -> f64 {
-    let angle = |at: DVec3, u: DVec3, v: DVec3| libm::atan2((u - at).cross(v - at).length(), (u - at).dot(v - at)).to_degrees();
-    let of = |angle: f64| (angle - LARGEST_DEG).max(0.0).powi(2) + (SMALLEST_DEG - angle).max(0.0).powi(2);
-    of(angle(a, b, c)) + of(angle(b, c, a)) + of(angle(c, a, b))
+/// Between which bounds angles are to be, in degrees.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    smallest: f64,
+    largest: f64,
+}
+
+impl Bounds {
+    /// What the ratio of the largest radius to the shortest edge implies.
+    pub fn of_beta(beta: f64) -> Self {
+        let smallest = libm::asin((0.5 / beta).min(0.5 * 3f64.sqrt())).to_degrees();
+        Self { smallest, largest: 180.0 - 2.0 * smallest }
+    }
+
+    /// How bad a triangle is: 0 if it is not.
+    fn badness(self, a: DVec3, b: DVec3, c: DVec3) -> f64 {
+        let angle = |at: DVec3, u: DVec3, v: DVec3| libm::atan2((u - at).cross(v - at).length(), (u - at).dot(v - at)).to_degrees();
+        let square = |excess: f64| excess.max(0.0) * excess.max(0.0);
+        let obtuse = if self.largest < OBTUSE_DEG { OBTUSE } else { 0.0 };
+        let of = |angle: f64| square(angle - self.largest) + square(self.smallest - angle) + obtuse * square(angle - OBTUSE_DEG);
+        of(angle(a, b, c)) + of(angle(b, c, a)) + of(angle(c, a, b))
+    }
 }
 
 impl LiveSurface<'_> {
     /// Makes bad triangles better as long as that goes; no other comes to be worse than it makes up for.
-    pub(super) fn polish(&mut self, seed: u64) {
+    pub(super) fn polish(&mut self, bounds: Bounds, seed: u64) {
         let mut random = Random::new(seed, 1 << 40);
         let mut buffer = SurfaceBuffer::default();
         for _ in 0..ROUNDS {
-            let bad: Vec<u32> = (0..self.mesh.n_half_edges() as u32 / 3).filter(|&t| self.badness_of(t) > 0.0).collect();
+            let bad: Vec<u32> = (0..self.mesh.n_half_edges() as u32 / 3).filter(|&t| self.badness_of(t, bounds) > 0.0).collect();
             if bad.is_empty() {
                 return;
             }
             let mut vertices = Vec::new();
             for t in bad {
                 for h in 3 * t..3 * t + 3 {
-                    self.flip_if_better(h);
+                    self.flip_if_better(h, bounds);
                     self.walk(self.mesh.origin(h), &mut buffer.moving);
                     vertices.push(self.mesh.origin(h));
                     vertices.extend(buffer.moving.iter().map(|spoke| spoke.vertex));
@@ -48,7 +65,7 @@ impl LiveSurface<'_> {
             vertices.dedup();
             let mut has_moved = false;
             for v in vertices.into_iter().filter(|&v| !self.is_fixed(v)).collect::<Vec<_>>() {
-                has_moved |= self.find_better(v, &mut random, &mut buffer);
+                has_moved |= self.find_better(v, bounds, &mut random, &mut buffer);
             }
             if !has_moved {
                 return;
@@ -56,20 +73,20 @@ impl LiveSurface<'_> {
         }
     }
 
-    fn badness_of(&self, t: u32) -> f64 {
+    fn badness_of(&self, t: u32, bounds: Bounds) -> f64 {
         let [a, b, c] = [0, 1, 2].map(|k| self.at(self.mesh.origin(3 * t + k)));
-        badness(a, b, c)
+        bounds.badness(a, b, c)
     }
 
     /// How bad the triangles around a vertex are, if it is at a place.
-    fn badness_around(&self, at: DVec3, ring: &[Spoke<DVec3>]) -> f64 {
+    fn badness_around(&self, bounds: Bounds, at: DVec3, ring: &[Spoke<DVec3>]) -> f64 {
         let corner = |spoke: &Spoke<DVec3>| self.at(spoke.vertex);
         let all = ring.iter().enumerate().filter(|(_, spoke)| spoke.half_edge != BORDER);
-        all.map(|(k, spoke)| badness(at, corner(spoke), corner(ring.get(k + 1).unwrap_or(&ring[0])))).sum()
+        all.map(|(k, spoke)| bounds.badness(at, corner(spoke), corner(ring.get(k + 1).unwrap_or(&ring[0])))).sum()
     }
 
     /// Looks for a better place in steps that become smaller. Whether there was one.
-    fn find_better(&self, v: u32, random: &mut Random, buffer: &mut SurfaceBuffer) -> bool {
+    fn find_better(&self, v: u32, bounds: Bounds, random: &mut Random, buffer: &mut SurfaceBuffer) -> bool {
         let mut has_moved = false;
         let mut step = STEP * self.local_spacing(v);
         for _ in 0..HALVINGS {
@@ -77,13 +94,13 @@ impl LiveSurface<'_> {
                 let ring = &mut buffer.moving;
                 self.walk(v, ring);
                 let from: Vertex = self.vertex(v);
-                let before = self.badness_around(from.at, ring);
+                let before = self.badness_around(bounds, from.at, ring);
                 if before == 0.0 {
                     return has_moved;
                 }
                 let by = step * DVec3::new(random.signed(), random.signed(), random.signed());
                 let to = self.land(&from, from.at + by);
-                if self.badness_around(to.at, ring) < before && self.step(v, by, ring) {
+                if self.badness_around(bounds, to.at, ring) < before && self.step(v, by, ring) {
                     has_moved = true;
                 }
             }
@@ -92,13 +109,14 @@ impl LiveSurface<'_> {
         has_moved
     }
 
-    fn flip_if_better(&self, h: u32) {
+    fn flip_if_better(&self, h: u32, bounds: Bounds) {
         let t = self.mesh.twin(h);
         if t == BORDER {
             return;
         }
         let corners = self.mesh.quadrilateral(h);
         let [p, q, r, s] = corners.map(|v| self.at(v));
+        let badness = |a, b, c| bounds.badness(a, b, c);
         let is_better = badness(s, q, r) + badness(r, p, s) < badness(p, q, r) + badness(q, p, s);
         if is_better && self.can_flip(corners) {
             self.flip(h);

@@ -14,8 +14,9 @@ const CORNER_TURN_DEG: f64 = 45.0;
 const LOOSE_END: f64 = 3.0;
 const LEAST_LENGTH: f64 = 4.0;
 const MEAN_LENGTH: f64 = 1.2;
-/// The edges of creases that hang together turn so many times as much as most others that end on them.
+/// The edges of creases that hang together turn so many times as much as most others that end on them; or by so much, in degrees.
 const CONTRAST: f64 = 12.0;
+const CLEAR_DEG: f64 = 75.0;
 /// Tips are so many spacings away from each other.
 const TIPS_APART: f64 = 3.0;
 
@@ -71,6 +72,14 @@ impl Features {
         features.corner_normals = corner_normals(surface, &features.is_crease);
         if angle_deg.is_some() {
             features.tips = features.tips(surface, least, TIPS_APART * spacing);
+            // There each triangle keeps its own normal: around a cone's tip no place faces as the tip does.
+            let mut is_tip = vec![false; surface.n_vertices()];
+            features.tips.iter().for_each(|&v| is_tip[v as usize] = true);
+            for (h, normal) in features.corner_normals.iter_mut().enumerate() {
+                if is_tip[surface.half_edges.origin[h] as usize] {
+                    *normal = surface.normals[h / 3];
+                }
+            }
         }
         features
     }
@@ -119,7 +128,8 @@ impl Features {
                 list[group].push(turn);
             }
         }
-        let mut stands_out = sharp.iter_mut().zip(&mut others).map(|(sharp, others)| median(sharp) > CONTRAST * median(others));
+        let mut stands_out =
+            sharp.iter_mut().zip(&mut others).map(|(sharp, others)| median(sharp) > CLEAR_DEG.min(CONTRAST * median(others)));
         let is_long = |(length, n): (&f64, &f64)| *length > LEAST_LENGTH.max(MEAN_LENGTH * n) * spacing;
         let is_kept: Vec<bool> = lengths.iter().zip(&n_chains).map(|group| is_long(group) & (stands_out.next() == Some(true))).collect();
         let mut group = groups.iter();

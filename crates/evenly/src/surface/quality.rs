@@ -72,7 +72,7 @@ pub struct CertificateBreach {
     pub max_angle_deg: f64,
 }
 
-/// Half a degree's rounding is no breach.
+/// Angles that are off by less than this are as they should be.
 const ROUNDING_DEG: f64 = 1e-6;
 
 /// Measures a surface's triangles as they are.
