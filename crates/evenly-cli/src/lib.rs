@@ -19,6 +19,7 @@ mod record;
 mod remesh_args;
 pub mod remeshed;
 mod reproduce;
+pub mod sampled;
 mod session;
 mod shared_args;
 mod sizes;

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use anyhow::bail;
-use clap::{Args as _, FromArgMatches as _};
 use evenly::{Density, Mesh, MeshParams, MeshQuality, Polygon, Report, RunContext, expected_triangles, mesh, mesh_quality};
 use serde_json::Value;
 
 use crate::measured::told;
 use crate::mesh_args::{MeshWishes, Rule};
+use crate::parse::read_words;
 use crate::sizes::Sizes;
 use crate::unmet::{Unmet, unmet};
 
@@ -102,7 +102,5 @@ pub fn meshed(polygon: &Polygon, name: &Path, wishes: &MeshWishes, given: Given,
 /// # Errors
 /// What the command line says of them.
 pub fn wishes(words: &[String]) -> anyhow::Result<MeshWishes> {
-    let command = MeshWishes::augment_args(clap::Command::new("mesh").no_binary_name(true).disable_help_flag(true));
-    let read = || MeshWishes::from_arg_matches(&command.try_get_matches_from(words)?);
-    read().map_err(|error| crate::plain(&error))
+    read_words(words)
 }

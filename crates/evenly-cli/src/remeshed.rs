@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
-use clap::{Args as _, FromArgMatches as _};
 use evenly::{
     Attribute, CertificateBreach, DistMeshParams, LloydParams, OptBetaParams, PushPullParams, RemeshMethod, RemeshParams, Remeshed, Report,
     RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, WellSpacedParams, certificate,
@@ -14,6 +13,7 @@ use serde_json::Value;
 
 use crate::measured::told;
 use crate::method_args::set;
+use crate::parse::read_words;
 use crate::remesh_args::RemeshRule;
 pub use crate::remesh_args::RemeshWishes;
 
@@ -68,17 +68,18 @@ pub fn surface_of(mesh: &TriangleMesh, name: &Path, is_repaired: bool) -> anyhow
 ///
 /// # Errors
 /// As [`remesh`], with the names of flags; `name` is the mesh's.
-pub fn remeshed(surface: &Surface, name: &Path, wishes: &RemeshWishes, run: &mut RunContext) -> anyhow::Result<Made> {
+pub fn remeshed(
+    surface: &Surface,
+    name: &Path,
+    wishes: &RemeshWishes,
+    sizing: Option<&SurfaceSizing>,
+    run: &mut RunContext,
+) -> anyhow::Result<Made> {
     let told = |e| told(e, name, &FLAGS);
-    if let Some(spacing) = wishes.spacing.filter(|&spacing| !(spacing > 0.0 && spacing.is_finite())) {
-        bail!("--spacing is {spacing}; it must be positive and finite");
-    }
-    let of_spacing = |spacing: f64| (expected_vertices(surface, &vec![spacing; surface.n_vertices()]).round() as usize).max(4);
-    let mut n_points = wishes.n_points.or(wishes.spacing.map(of_spacing));
+    let mut n_points = number_of(surface, wishes.n_points, wishes.spacing)?;
     let mut sizes = Vec::new();
-    if let Some(words) = &wishes.density {
-        let sizing = sizing(words, wishes)?;
-        sizes = surface_sizes(surface, &sizing, n_points).map_err(told)?;
+    if let Some(sizing) = sizing {
+        sizes = surface_sizes(surface, sizing, n_points).map_err(told)?;
         n_points = n_points.or(Some((expected_vertices(surface, &sizes).round() as usize).max(4)));
     }
     let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
@@ -171,8 +172,24 @@ fn method(wishes: &RemeshWishes) -> RemeshMethod {
     }
 }
 
-/// What `--density` says.
-fn sizing(words: &str, wishes: &RemeshWishes) -> anyhow::Result<SurfaceSizing> {
+/// How many vertices are asked for, by their number or by a spacing.
+pub(crate) fn number_of(surface: &Surface, n_points: Option<usize>, spacing: Option<f64>) -> anyhow::Result<Option<usize>> {
+    if let Some(spacing) = spacing.filter(|&spacing| !(spacing > 0.0 && spacing.is_finite())) {
+        bail!("--spacing is {spacing}; it must be positive and finite");
+    }
+    let of_spacing = |spacing: f64| (expected_vertices(surface, &vec![spacing; surface.n_vertices()]).round() as usize).max(4);
+    Ok(n_points.or(spacing.map(of_spacing)))
+}
+
+/// What `--density` says, if anything.
+///
+/// # Errors
+/// Words that mean nothing, and files that cannot be read.
+pub fn sizing(wishes: &RemeshWishes) -> anyhow::Result<Option<SurfaceSizing>> {
+    wishes.density.as_deref().map(|words| sizing_of(words, wishes)).transpose()
+}
+
+fn sizing_of(words: &str, wishes: &RemeshWishes) -> anyhow::Result<SurfaceSizing> {
     if let Some(path) = wishes.density_path() {
         return Ok(SurfaceSizing::Given(read_numbers(path).with_context(|| format!("--density {words}"))?));
     }
@@ -196,7 +213,5 @@ fn sizing(words: &str, wishes: &RemeshWishes) -> anyhow::Result<SurfaceSizing> {
 /// # Errors
 /// What the command line says of them.
 pub fn wishes(words: &[String]) -> anyhow::Result<RemeshWishes> {
-    let command = RemeshWishes::augment_args(clap::Command::new("remesh").no_binary_name(true).disable_help_flag(true));
-    let read = || RemeshWishes::from_arg_matches(&command.try_get_matches_from(words)?);
-    read().map_err(|error| crate::plain(&error))
+    read_words(words)
 }

@@ -282,3 +282,12 @@ impl PhaseClock {
         }
     }
 }
+
+/// That no two outputs go to the same file.
+pub fn require_distinct(targets: &[Option<&Target>]) -> anyhow::Result<()> {
+    let all: Vec<&Target> = targets.iter().flatten().copied().collect();
+    match all.iter().enumerate().find(|&(k, target)| all[..k].iter().any(|before| before.is_same(target))) {
+        Some((_, target)) => bail!("{}: two outputs cannot go to the same file", target.name()),
+        None => Ok(()),
+    }
+}

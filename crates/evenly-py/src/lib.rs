@@ -7,6 +7,7 @@ mod meshes;
 mod points;
 mod spaces;
 mod stipples;
+mod surfaces;
 
 use std::ffi::OsString;
 
@@ -30,6 +31,10 @@ fn _evenly(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(meshes::mesh, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::write_mesh, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::mesh_figure, module)?)?;
+    module.add_function(wrap_pyfunction!(surfaces::remesh, module)?)?;
+    module.add_function(wrap_pyfunction!(surfaces::sample, module)?)?;
+    module.add_function(wrap_pyfunction!(surfaces::write_surface, module)?)?;
+    module.add_function(wrap_pyfunction!(surfaces::surface_figure, module)?)?;
     module.add_function(wrap_pyfunction!(stipples::stipple, module)?)?;
     module.add_function(wrap_pyfunction!(command, module)?)?;
     Ok(())

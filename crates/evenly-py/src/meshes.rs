@@ -5,13 +5,12 @@ use std::path::PathBuf;
 use evenly::{EdgeKind, Mesh, MeshEdge, Polygon};
 use evenly_cli::meshed::{Given, meshed, wishes};
 use evenly_io::{MeshFormat, Target};
-use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
-use crate::answer::{answer, json};
-use crate::arrays::{Rows, array, numbers, rows};
+use crate::answer::{answer, json, value_error};
+use crate::arrays::{Integers, Rows, array, indices, numbers, rows};
 use crate::job::{Terms, run};
-use crate::spaces::{DensityArg, Rings, density, value_error};
+use crate::spaces::{DensityArg, Rings, density};
 
 /// Vertices, triangles, the edges that had to be, what each is part of, and the rest as JSON.
 #[pyfunction]
@@ -54,15 +53,6 @@ fn tag(edge: &MeshEdge) -> i64 {
         EdgeKind::Border { segment } => segment as i64,
         EdgeKind::Line { line } => -1 - line as i64,
     }
-}
-
-type Integers<'py> = PyReadonlyArray2<'py, i64>;
-
-fn indices<const N: usize>(array: &Integers) -> PyResult<Vec<[usize; N]>> {
-    let numbers = array.as_slice().map_err(value_error)?;
-    let index = |&number: &i64| usize::try_from(number).map_err(value_error);
-    let numbers = numbers.iter().map(index).collect::<PyResult<Vec<usize>>>()?;
-    Ok(numbers.as_chunks::<N>().0.to_vec())
 }
 
 /// The same mesh as numbers.

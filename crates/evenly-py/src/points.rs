@@ -6,10 +6,10 @@ use evenly_io::{Draw, Subject};
 use numpy::PyUntypedArrayMethods as _;
 use pyo3::prelude::*;
 
-use crate::answer::{Answer, answer, json};
+use crate::answer::{Answer, answer, json, value_error};
 use crate::arrays::{Rows, array, numbers, rows};
 use crate::job::{Terms, run};
-use crate::spaces::{DensityArg, SpaceArg, point_set, value_error};
+use crate::spaces::{DensityArg, SpaceArg, point_set};
 
 /// Positions, and the report as JSON.
 fn made(made: Made) -> anyhow::Result<Answer> {

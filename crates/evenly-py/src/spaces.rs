@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use evenly::{Density, PointSet, Polygon, Rectangle, Space, Torus};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods as _};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::answer::value_error;
 use crate::arrays::{Rows, rows};
 
 /// Rings, an odd number of which enclose the inside.
@@ -26,10 +26,6 @@ pub enum SpaceArg {
 pub enum DensityArg<'py> {
     Pixels(PyReadonlyArray2<'py, f32>),
     Words(String),
-}
-
-pub fn value_error(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
 }
 
 impl SpaceArg {

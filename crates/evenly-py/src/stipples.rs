@@ -7,10 +7,9 @@ use evenly_io::Photograph;
 use numpy::{PyReadonlyArray3, PyUntypedArrayMethods as _};
 use pyo3::prelude::*;
 
-use crate::answer::answer;
+use crate::answer::{answer, value_error};
 use crate::arrays::{array, numbers};
 use crate::job::{Terms, run};
-use crate::spaces::value_error;
 
 /// A picture: pixels, row by row from the top, red, green, blue and opacity from 0 to 1; or a file.
 #[derive(FromPyObject)]

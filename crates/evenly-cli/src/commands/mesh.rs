@@ -110,12 +110,7 @@ impl Targets {
         }
         let other = |path: &Option<std::path::PathBuf>| path.as_ref().map(|path| Target::any(path, force)).transpose();
         let (cells, report) = (other(&args.cells)?, other(&args.report)?);
-        let all: Vec<&Target> = [Some(&mesh), cells.as_ref(), report.as_ref()].into_iter().flatten().collect();
-        for (k, target) in all.iter().enumerate() {
-            if all[..k].iter().any(|before| before.is_same(target)) {
-                bail!("{}: two outputs cannot go to the same file", target.name());
-            }
-        }
+        session::require_distinct(&[Some(&mesh), cells.as_ref(), report.as_ref()])?;
         Ok(Self { mesh, format, cells, report })
     }
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::remesh_args::Remesh;
-use crate::remeshed::{Made, remeshed, surface_of, with_places};
+use crate::remeshed::{Made, remeshed, sizing, surface_of, with_places};
 use crate::talk::say;
 use crate::{input, interrupt, record, session};
 
@@ -28,12 +28,13 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let surface = surface_of(&read.mesh, &args.input, wishes.repair)?;
     let mut notes: Vec<String> = read.notes.iter().chain(surface.notes()).cloned().collect();
 
+    let sizing = sizing(wishes)?;
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
-        remeshed(&surface, &args.input, wishes, &mut context)
+        remeshed(&surface, &args.input, wishes, sizing.as_ref(), &mut context)
     });
     bar.finish_and_clear();
     let Made { remeshed, quality, distance, self_intersections, breaches, report, parameters } = made?;
@@ -100,12 +101,7 @@ impl Targets {
         }
         let plot = args.plot.as_ref().map(|path| Target::figure(path, force)).transpose()?;
         let report = args.report.as_ref().map(|path| Target::any(path, force)).transpose()?;
-        let all: Vec<&Target> = [Some(&mesh), plot.as_ref(), report.as_ref()].into_iter().flatten().collect();
-        for (k, target) in all.iter().enumerate() {
-            if all[..k].iter().any(|before| before.is_same(target)) {
-                bail!("{}: two outputs cannot go to the same file", target.name());
-            }
-        }
+        session::require_distinct(&[Some(&mesh), plot.as_ref(), report.as_ref()])?;
         Ok(Self { mesh, format, plot, report })
     }
 }

@@ -3,13 +3,13 @@
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, Outcome, Report, RunContext, SurfaceSampling, TriangleMesh, expected_vertices, sample_surface};
+use evenly::{CancelToken, Outcome, Report, RunContext, TriangleMesh};
 use evenly_io::{CloudFormat, Target, read_triangles, write_cloud};
 use serde::Serialize;
 
-use crate::measured::told;
-use crate::remesh_args::{Sample, SampleRule};
+use crate::remesh_args::Sample;
 use crate::remeshed::{place_attributes, surface_of};
+use crate::sampled::sampled;
 use crate::talk::say;
 use crate::{interrupt, record, session};
 
@@ -25,31 +25,18 @@ pub fn run(args: &Sample) -> anyhow::Result<u8> {
         bail!("--json and the points cannot both go to stdout; name a file with -o");
     }
     let wishes = &args.wishes;
-    if let Some(spacing) = wishes.spacing.filter(|&spacing| !(spacing > 0.0 && spacing.is_finite())) {
-        bail!("--spacing is {spacing}; it must be positive and finite");
-    }
     let pool = session::pool(args.run.threads)?;
     let read = read_triangles(&args.input)?;
     let surface = surface_of(&read.mesh, &args.input, wishes.repair)?;
-    let of_spacing = |spacing: f64| (expected_vertices(&surface, &vec![spacing; surface.n_vertices()]).round() as usize).max(4);
-    let n_points = wishes.n_points.or(wishes.spacing.map(of_spacing)).unwrap_or_default();
-    let sampling = match (wishes.method, wishes.spacing) {
-        (SampleRule::PushPull, _) => SurfaceSampling::PushPull(n_points),
-        (SampleRule::Eliminate, _) => SurfaceSampling::Eliminate(n_points),
-        (SampleRule::White, _) => SurfaceSampling::White(n_points),
-        (SampleRule::PoissonDisk, Some(spacing)) => SurfaceSampling::PoissonDisk(spacing),
-        (SampleRule::PoissonDisk, None) => SurfaceSampling::poisson_disk_of(&surface, n_points),
-    };
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
-    let sampled = pool.install(|| {
+    let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
-        sample_surface(&surface, sampling, wishes.seed, &mut context)
+        sampled(&surface, &args.input, wishes, &mut context)
     });
     bar.finish_and_clear();
-    let flags = [("n_points", "n-points"), ("spacing", "spacing")];
-    let (points, report) = sampled.map_err(|e| told(e, &args.input, &flags))?;
+    let (points, report) = made?;
 
     let vertices = points.iter().map(|point| point.position).collect();
     let cloud = TriangleMesh { vertices, triangles: Vec::new(), attributes: place_attributes(&points) };

@@ -26,6 +26,7 @@ from evenly._meshes import Mesh, MeshQuality, mesh
 from evenly._points import Points, generate, optimize
 from evenly._spaces import Polygon, Rectangle, Torus
 from evenly._stipples import Layer, Stippling, stipple
+from evenly._surfaces import SurfaceDistance, SurfaceMesh, SurfacePoints, SurfaceQuality, remesh, sample
 
 __version__ = _evenly.__version__
 
@@ -53,6 +54,10 @@ __all__ = [
     "Rectangle",
     "Run",
     "Stippling",
+    "SurfaceDistance",
+    "SurfaceMesh",
+    "SurfacePoints",
+    "SurfaceQuality",
     "Torus",
     "compare",
     "generate",
@@ -62,5 +67,7 @@ __all__ = [
     "pair_correlation",
     "power_spectrum",
     "radial_power",
+    "remesh",
+    "sample",
     "stipple",
 ]

@@ -62,8 +62,9 @@ class Frozen:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         for value in state.values():
-            if isinstance(value, np.ndarray):
-                frozen(value)
+            for array in value.values() if isinstance(value, dict) else [value]:
+                if isinstance(array, np.ndarray):
+                    frozen(array)
         self.__dict__.update(state)
 
 

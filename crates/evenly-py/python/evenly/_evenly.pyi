@@ -12,6 +12,8 @@ _Space: TypeAlias = _Box | _Rings
 _Density: TypeAlias = NDArray[np.float32] | str | None
 _Callback: TypeAlias = Callable[[int, float | None, float | None, float], bool | None] | None
 _Clean: TypeAlias = tuple[list[list[tuple[float, float]]], float, list[str]]
+_Shape: TypeAlias = tuple[_Rows, NDArray[np.int64]] | str
+_Places: TypeAlias = tuple[_Rows, NDArray[np.int64], _Rows, _Rows]
 _Layer: TypeAlias = tuple[str, str, _Rows, NDArray[np.float64], float]
 
 __all__ = [
@@ -29,10 +31,14 @@ __all__ = [
     "power_spectrum",
     "radial_spectrum",
     "read_polygon",
+    "remesh",
     "rendered",
+    "sample",
     "stipple",
+    "surface_figure",
     "triangles",
     "write_mesh",
+    "write_surface",
 ]
 __version__: str
 
@@ -95,4 +101,19 @@ def stipple(
     threads: int | None,
     callback: _Callback,
 ) -> tuple[tuple[int, int], list[_Layer]]: ...
+def remesh(
+    shape: _Shape,
+    words: list[str],
+    sizes: list[float] | None,
+    threads: int | None,
+    callback: _Callback,
+) -> tuple[_Places, NDArray[np.int64], list[tuple[str, NDArray[np.float64]]], str]: ...
+def sample(shape: _Shape, words: list[str], threads: int | None, callback: _Callback) -> tuple[_Places, str]: ...
+def write_surface(
+    path: str,
+    places: tuple[_Rows, list[int], _Rows, _Rows],
+    triangles: NDArray[np.int64],
+    attributes: list[tuple[str, list[float]]],
+) -> None: ...
+def surface_figure(vertices: _Rows, triangles: NDArray[np.int64]) -> str: ...
 def command(words: list[str]) -> int: ...

@@ -13,11 +13,11 @@ Answer = TypeVar("Answer")
 Result = TypeVar("Result")
 
 _MOST_THREADS = 1024
-_FLAGS = {"no_warp", "local", "no_obtuse", "invert"}
+_FLAGS = {"no_warp", "local", "no_obtuse", "invert", "repair"}
 _NEEDED = {"method", "layers", "sizes", "order"}
-_CHOICES = _NEEDED | {"start", "preset", "mode", "schedule"}
-_TARGETS = {"min_distance", "coverage_radius", "capacity_tolerance"}
-_COUNTS = {"seed", "iterations", "tries", "n_triangles"}
+_CHOICES = _NEEDED | {"start", "preset", "mode", "schedule", "density"}
+_TARGETS = {"min_distance", "coverage_radius", "capacity_tolerance", "features", "tolerance"}
+_COUNTS = {"seed", "iterations", "tries", "n_triangles", "n_points"}
 
 
 class Progress(NamedTuple):

@@ -1,0 +1,414 @@
+"""`remesh` and `sample`, and what they return."""
+
+import json
+import math
+import os
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenly import _evenly
+from evenly._arrays import Floats, Frozen, converted, frozen, rows
+from evenly._jobs import Callback, run, threads_of, told, words
+from evenly._seeds import Seed, number
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+_MANY = 20_000
+
+_Places: TypeAlias = tuple[Floats, NDArray[np.int64], Floats, Floats]
+
+
+@dataclass(frozen=True)
+class SurfaceQuality:
+    """What a mesh in space is worth, by chords; angles in degrees, lengths and areas in input units."""
+
+    n_vertices: int
+    """How many vertices there are."""
+    n_triangles: int
+    """How many triangles."""
+    n_components: int
+    """How many connected parts."""
+    n_border_edges: int
+    """How many edges with one triangle."""
+    euler_characteristic: int
+    """Vertices less edges plus triangles."""
+    area: float
+    """The area of all triangles."""
+    min_quality: float
+    """Least quality of a triangle, 6 S / (sqrt(3) p h): 1 for equilateral ones."""
+    mean_quality: float
+    """Mean of the same."""
+    min_angle_deg: float
+    """Smallest angle."""
+    max_angle_deg: float
+    """Largest angle."""
+    mean_min_angle_deg: float
+    """Mean of the triangles' smallest angles."""
+    angle_rms_deg: float
+    """Root mean square of the angles' differences from 60 degrees."""
+    thin_fraction: float
+    """Part of the triangles with an angle below 30 degrees."""
+    obtuse_triangles: int
+    """Triangles with an angle above 90 degrees."""
+    obtuse_fraction: float
+    """Part of all that they are."""
+    valence_567_fraction: float
+    """Part of the vertices inside with 5, 6 or 7 neighbours."""
+    valence_6_fraction: float
+    """Part with 6."""
+    min_edge: float
+    """Shortest edge."""
+    max_edge: float
+    """Longest edge."""
+    max_circumradius: float
+    """Largest circumradius."""
+    beta: float
+    """Largest circumradius over shortest edge."""
+    spacing: float
+    """Edge of equilateral triangles, as many, with the same area: 1 for the two that follow."""
+    min_distance: float
+    """Shortest edge, relative to the spacing."""
+    coverage_radius: float
+    """Largest circumradius, relative to the spacing."""
+
+
+@dataclass(frozen=True)
+class SurfaceDistance:
+    """How far a mesh is from the one that was given, in input units, if nothing else is said."""
+
+    rms_to_reference: float
+    """Root mean square, from the mesh to the one given."""
+    max_to_reference: float
+    """Largest, from the mesh to the one given."""
+    rms_from_reference: float
+    """Root mean square, from the one given."""
+    max_from_reference: float
+    """Largest, from the one given."""
+    flipped_triangles: int
+    """Triangles that face the other way than the given mesh does there."""
+    farthest_place: tuple[float, float, float]
+    """The place on the given mesh from which it is so far."""
+    rms: float
+    """Larger root mean square, as a part of the given mesh's diagonal."""
+    hausdorff: float
+    """Larger largest, as a part of the given mesh's diagonal."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SurfacePoints(Frozen):
+    """Points on a surface."""
+
+    positions: Floats
+    """Of shape (n, 3)."""
+    facets: NDArray[np.int64]
+    """The triangle of the given mesh on which each lies."""
+    barycentric: Floats
+    """Of shape (n, 3): the weights of that triangle's corners."""
+    normals: Floats
+    """Of shape (n, 3): the surface's unit normals, rounded between creases."""
+    seed: int
+    """The same seed makes the same points."""
+    outcome: str
+    """See `Points.outcome`."""
+    notes: tuple[str, ...] = ()
+    """What is good to know."""
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        return converted(self.positions, dtype, copy)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} points on a surface>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SurfaceMesh(Frozen):
+    """Triangles in space, and where their vertices lie on the mesh that was given."""
+
+    vertices: Floats
+    """Of shape (n, 3)."""
+    triangles: NDArray[np.int64]
+    """Of shape (m, 3): the vertices of each, running as the given mesh's do."""
+    facets: NDArray[np.int64]
+    """The triangle of the given mesh on which each vertex lies."""
+    barycentric: Floats
+    """Of shape (n, 3): the weights of that triangle's corners."""
+    normals: Floats
+    """Of shape (n, 3): the surface's unit normals, rounded between creases."""
+    quality: SurfaceQuality
+    """What it is worth."""
+    distance: SurfaceDistance
+    """How far it is from the mesh that was given."""
+    self_intersections: int
+    """Pairs of triangles that cross each other."""
+    seed: int
+    """The same seed makes the same mesh."""
+    outcome: str
+    """'converged' where the targets are met everywhere; see `Points.outcome`."""
+    uncertified: NDArray[np.int64]
+    """The triangles whose angles are not what the targets imply; none for methods without targets."""
+    attributes: dict[str, Floats] = field(default_factory=dict)
+    """What a file's vertices carried, interpolated, by name."""
+    notes: tuple[str, ...] = ()
+    """What is good to know."""
+
+    @property
+    def faces(self) -> NDArray[np.int64]:
+        """The triangles, as trimesh calls them."""
+        return self.triangles
+
+    def __repr__(self) -> str:
+        q = self.quality
+        angles = f"angles {q.min_angle_deg:.1f} to {q.max_angle_deg:.1f} degrees"
+        return f"<surface mesh of {q.n_triangles} triangles and {q.n_vertices} vertices, {angles}>"
+
+    def save(self, path: "str | os.PathLike[str]") -> None:
+        """Write the mesh as .ply, .obj, .off, .stl, .vtu, .msh, .npz, .svg, .png or .pdf, as the path says."""
+        places = (self.vertices, self.facets.tolist(), self.barycentric, self.normals)
+        attributes = [(name, values.tolist()) for name, values in self.attributes.items()]
+        _evenly.write_surface(os.fspath(path), places, self.triangles, attributes)
+
+    def svg(self) -> str:
+        """Draw the mesh, shaded: obtuse triangles light red, thin ones red."""
+        return _evenly.surface_figure(self.vertices, self.triangles)
+
+    def _repr_svg_(self) -> str | None:
+        return self.svg() if len(self.triangles) <= _MANY else None
+
+    def _repr_png_(self) -> bytes | None:
+        return run(lambda: _evenly.rendered(self.svg()), bytes) if len(self.triangles) > _MANY else None
+
+
+def remesh(
+    shape: object,
+    n: int | None = None,
+    *,
+    spacing: float | None = None,
+    seed: Seed = 0,
+    method: Literal["push-pull", "well-spaced", "opt-beta", "lloyd", "distmesh"] = "push-pull",
+    preset: str | None = None,
+    min_distance: float | Literal["off"] | None = None,
+    coverage_radius: float | Literal["off"] | None = None,
+    capacity_tolerance: float | Literal["off"] | None = None,
+    beta: float | None = None,
+    iterations: int | None = None,
+    density: "str | ArrayLike | None" = None,
+    features: float | Literal["off"] = 40.0,
+    tolerance: float | Literal["off"] | None = None,
+    repair: bool = False,
+    threads: int | None = None,
+    callback: Callback | None = None,
+) -> SurfaceMesh:
+    """Give a triangle mesh in space a new one, by default without obtuse triangles (Ahmed et al. 2017, section 5.3).
+
+    Parameters
+    ----------
+    shape : mesh, file, or pair of arrays
+        What trimesh, pyvista and meshio have; a path to .obj, .ply, .stl, .off, .gltf or .glb; or vertices of shape (k, 3) and triangles of shape (l, 3).
+    n : int, optional
+        How many vertices, exactly. This, `spacing`, or a density with an error.
+    spacing : float, optional
+        The length of edges, in input units, instead.
+    seed : int, SeedSequence, Generator or None
+        As in `generate`.
+    method : str
+        By which rule vertices move.
+    preset, min_distance, coverage_radius, capacity_tolerance : optional
+        Targets of 'push-pull', relative to the spacing; {0.90, 0.63} by default, with a tolerance of 0.1.
+    beta : float, optional
+        Of 'well-spaced' and 'opt-beta': the wanted ratio of the largest circumradius to the shortest edge.
+    iterations : int, optional
+        Passes at most.
+    density : str or array_like of shape (k,), optional
+        'curvature', 'curvature:0.01' (an error in input units), 'lfs', 'linear:z,4', of files 'attr:NAME'; or the wanted lengths of edges at the vertices, in proportion.
+    features : float or 'off'
+        Edges at which the surface turns by more than so many degrees are kept; borders are in any case.
+    tolerance : float or 'off', optional
+        How far the given mesh may be from the new one, in input units: where it is farther, a vertex is put and kept.
+    repair : bool
+        Mend what can be without guessing.
+    threads, callback
+        As in `generate`.
+
+    Returns
+    -------
+    SurfaceMesh
+        Vertices, triangles, and where the vertices lie on the given mesh. That targets were not reached is no error: see ``outcome`` and ``uncertified``.
+
+    Raises
+    ------
+    ValueError
+        For what cannot be; the message has the place.
+    Interrupted
+        Where Ctrl-C ends the run; ``partial`` has the mesh reached.
+
+    Examples
+    --------
+    >>> import evenly
+    >>> vertices = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    >>> triangles = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (1, 0, 5), (2, 1, 5), (3, 2, 5), (0, 3, 5)]
+    >>> mesh = evenly.remesh((vertices, triangles), 500)
+    >>> len(mesh.vertices), mesh.quality.min_angle_deg > 25
+    (500, True)
+    """
+    has_sizes = density is not None and not isinstance(density, str)
+    if n is not None and spacing is not None:
+        raise ValueError("give either n or spacing")
+    if n is None and spacing is None and (density is None or has_sizes):
+        raise ValueError("n or spacing is missing: how many vertices?")
+    sizes = None if not has_sizes else _sizes(density)
+    chance = number(seed)
+    options = words(
+        {
+            "n_points": n,
+            "spacing": spacing,
+            "seed": chance,
+            "method": method,
+            "preset": preset,
+            "min_distance": min_distance,
+            "coverage_radius": coverage_radius,
+            "capacity_tolerance": capacity_tolerance,
+            "beta": beta,
+            "iterations": iterations,
+            "density": None if has_sizes else density,
+            "features": features,
+            "tolerance": tolerance,
+            "repair": repair,
+        }
+    )
+
+    def build(answer: tuple[_Places, NDArray[np.int64], list[tuple[str, Floats]], str]) -> SurfaceMesh:
+        (vertices, facets, barycentric, normals), triangles, attributes, text = answer
+        said: dict[str, Any] = json.loads(text)
+        return SurfaceMesh(
+            vertices=frozen(vertices),
+            triangles=frozen(triangles),
+            facets=frozen(facets),
+            barycentric=frozen(barycentric),
+            normals=frozen(normals),
+            quality=_read(SurfaceQuality, said["quality"]),
+            distance=_read(SurfaceDistance, {**said["distance"], "farthest_place": tuple(said["distance"]["farthest_place"])}),
+            self_intersections=said["self_intersections"],
+            seed=chance,
+            outcome=said["run"]["outcome"],
+            uncertified=frozen(np.array([each["triangle"] for each in said["breaches"]], dtype=np.int64)),
+            attributes={name: frozen(values) for name, values in attributes},
+            notes=tuple(said["notes"]),
+        )
+
+    native = _native(shape)
+    return run(lambda: _evenly.remesh(native, options, sizes, threads_of(threads), told(callback)), build)
+
+
+def sample(
+    shape: object,
+    n: int | None = None,
+    *,
+    spacing: float | None = None,
+    seed: Seed = 0,
+    method: Literal["push-pull", "eliminate", "poisson-disk", "white"] = "push-pull",
+    repair: bool = False,
+    threads: int | None = None,
+    callback: Callback | None = None,
+) -> SurfacePoints:
+    """Spread points over a triangle mesh in space.
+
+    Parameters
+    ----------
+    shape : mesh, file, or pair of arrays
+        See `remesh`.
+    n : int, optional
+        How many points, exactly; of 'poisson-disk' about. This or `spacing`.
+    spacing : float, optional
+        The smallest distance of two points for 'poisson-disk', else their usual one, in input units.
+    seed : int, SeedSequence, Generator or None
+        As in `generate`.
+    method : str
+        'push-pull'; 'eliminate', by the mesh's neighbourhoods; 'poisson-disk', which is maximal, and does not reach through thin parts; or 'white'.
+    repair : bool
+        Mend what can be without guessing.
+    threads, callback
+        As in `generate`.
+
+    Returns
+    -------
+    SurfacePoints
+        Positions, facets, barycentric coordinates and normals.
+
+    Raises
+    ------
+    ValueError
+        For what cannot be; the message has the place.
+    Interrupted
+        Where Ctrl-C ends the run; ``partial`` has the points reached.
+
+    Examples
+    --------
+    >>> import evenly
+    >>> square = ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+    >>> points = evenly.sample(square, 100, method="white")
+    >>> points.positions.shape, bool((points.normals == (0, 0, 1)).all())
+    ((100, 3), True)
+    """
+    if (n is None) == (spacing is None):
+        raise ValueError("give either n or spacing")
+    chance = number(seed)
+    options = words({"n_points": n, "spacing": spacing, "seed": chance, "method": method, "repair": repair})
+
+    def build(answer: tuple[_Places, str]) -> SurfacePoints:
+        (positions, facets, barycentric, normals), text = answer
+        said: dict[str, Any] = json.loads(text)
+        return SurfacePoints(
+            positions=frozen(positions),
+            facets=frozen(facets),
+            barycentric=frozen(barycentric),
+            normals=frozen(normals),
+            seed=chance,
+            outcome=said["run"]["outcome"],
+            notes=tuple(said["notes"]),
+        )
+
+    native = _native(shape)
+    return run(lambda: _evenly.sample(native, options, threads_of(threads), told(callback)), build)
+
+
+def _read(kind: Any, said: dict[str, Any]) -> Any:
+    """Return measures; what is no number in JSON is none."""
+    return kind(**{each.name: math.nan if said[each.name] is None else said[each.name] for each in fields(kind)})
+
+
+def _sizes(density: object) -> list[float]:
+    array = np.asarray(density)
+    if array.ndim != 1 or array.dtype.kind not in "fiu":
+        raise ValueError(f"density must be a name, or one number for each vertex, not an array of shape {array.shape}")
+    return [float(size) for size in array]
+
+
+def _native(shape: Any) -> "str | tuple[Floats, NDArray[np.int64]]":
+    """Return a path, or vertices and triangles."""
+    if isinstance(shape, (str, os.PathLike)):
+        return os.fspath(shape)
+    if isinstance(shape, (tuple, list)) and len(shape) == 2:
+        vertices, triangles = shape
+    elif hasattr(shape, "cells_dict"):
+        vertices, triangles = shape.points, shape.cells_dict.get("triangle", ())
+    elif hasattr(shape, "regular_faces"):
+        vertices, triangles = shape.points, shape.regular_faces
+    elif hasattr(shape, "vertices") and (hasattr(shape, "faces") or hasattr(shape, "triangles")):
+        vertices, triangles = shape.vertices, shape.faces if hasattr(shape, "faces") else shape.triangles
+    else:
+        raise TypeError(f"a mesh is needed: a path, vertices and triangles, or what has them, not {type(shape).__name__}")
+    return rows(vertices, "vertices", 3), _indices(triangles)
+
+
+def _indices(triangles: object) -> NDArray[np.int64]:
+    array = np.asarray(triangles)
+    if array.ndim != 2 or array.shape[1] != 3 or array.shape[0] == 0 or array.dtype.kind not in "iu":
+        raise ValueError(f"triangles must be whole numbers of shape (m, 3), not {array.dtype} of shape {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.int64)
