@@ -1,4 +1,4 @@
-//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh]`,
+//! The table of what evenly promises, measured on this machine: `cargo xtask bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh | surfaces]`,
 //! quick without the largest runs.
 //!
 //! Speed is a ratio to one run of `delaunator` on the same points in the same process, the best of a few runs each.
@@ -12,6 +12,9 @@ mod density;
 mod mesh;
 #[path = "../tests/shapes.rs"]
 mod shapes;
+#[path = "../tests/solids/mod.rs"]
+mod solids;
+mod surfaces;
 
 use std::time::{Duration, Instant};
 
@@ -31,7 +34,8 @@ fn main() {
     let args: Vec<String> = std::env::args().collect();
     let is_wanted = |name: &str| args.iter().any(|arg| arg == name);
     let is_quick = is_wanted("quick");
-    let is_all = !["procrustes", "push-pull", "starts", "comparators", "spectrum", "density", "mesh"].into_iter().any(is_wanted);
+    let is_all =
+        !["procrustes", "push-pull", "starts", "comparators", "spectrum", "density", "mesh", "surfaces"].into_iter().any(is_wanted);
     println!("| run | must reach | measured |\n|---|---|---|");
     if is_all || is_wanted("procrustes") {
         of_procrustes(is_quick);
@@ -53,6 +57,9 @@ fn main() {
     }
     if is_all || is_wanted("mesh") {
         mesh::of_meshes(is_quick);
+    }
+    if is_all || is_wanted("surfaces") {
+        surfaces::of_surfaces(is_quick);
     }
 }
 

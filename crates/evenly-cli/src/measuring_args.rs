@@ -102,6 +102,9 @@ pub struct Reproduce {
     /// The folder for PAPER.html and PAPER.json, with --quick PAPER-quick.html and PAPER-quick.json
     #[arg(short, long, value_name = "DIR", default_value = ".")]
     pub output: PathBuf,
+    /// Of push-pull: models for Table 2, of those that the paper has: fertility.off,homer.obj,bunny.off
+    #[arg(long, value_name = "FILES", value_delimiter = ',')]
+    pub models: Vec<PathBuf>,
     /// Fewer points and sets: under two minutes
     #[arg(long)]
     pub quick: bool,

@@ -72,7 +72,7 @@ pub struct RemeshWishes {
     /// Of well-spaced and opt-beta: the wanted ratio of the largest circumradius to the shortest edge
     #[arg(long, value_name = "B", allow_negative_numbers = true, help_heading = "Method")]
     pub beta: Option<f64>,
-    /// Passes at most [default: push-pull and well-spaced 1000, lloyd 100, the others 200]
+    /// Passes at most, and as many again after vertices are put or let go [default: push-pull and well-spaced 1000, lloyd 100, the others 200]
     #[arg(short, long, value_name = "N", value_parser = parse_count, help_heading = "Method")]
     pub iterations: Option<usize>,
     /// Edges of other lengths here and there: curvature[:error], lfs, linear:axis,ratio, attr:NAME, or a file with a number for each vertex
@@ -81,10 +81,13 @@ pub struct RemeshWishes {
     /// says how many. lfs: in proportion to the local feature size. linear:z,4: four times as long at the high end of z. attr and files: wanted lengths, in proportion.
     #[arg(long, value_name = "HOW", help_heading = "Size")]
     pub density: Option<String>,
-    /// Edges at which the surface turns by more than this are kept, and tips; borders are in any case; off for borders alone
+    /// Creases that turn by more than this are kept, and tips; borders are in any case; off for borders alone
+    ///
+    /// A crease is kept if it turns twelve times as much as what is around it, or by more than 75 degrees; all that hangs together, if it is longer than four spacings. Tips are
+    /// let go where the targets cannot be met otherwise.
     #[arg(long, value_name = "ANGLE", default_value = "40deg", value_parser = parse_features, help_heading = "Shape")]
     pub features: Features,
-    /// How far the input may be from the mesh: where it is farther, a vertex is put and kept; off for as it comes [default: 0.45 spacings, 0.35 with --density]
+    /// How far the input may be from the mesh, where edges are short less in proportion: where it is farther, a vertex is put and kept, if targets can be met so; off for as it comes [default: 0.45 spacings, 0.35 with --density]
     #[arg(long, value_name = "D", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Shape")]
     pub tolerance: Option<Target>,
     /// Mend what can be without guessing: turn triangles that run the wrong way, separate sheets that touch, cut open what is left

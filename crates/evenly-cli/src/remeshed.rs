@@ -18,10 +18,11 @@ use crate::remesh_args::RemeshRule;
 pub use crate::remesh_args::RemeshWishes;
 
 /// Parameters, and the flags that hold them.
-const FLAGS: [(&str, &str); 9] = [
+const FLAGS: [(&str, &str); 10] = [
     ("n_points", "n-points"),
     ("features_deg", "features"),
     ("error", "density curvature"),
+    ("sizes", "density"),
     ("linear", "density linear"),
     ("attr", "density attr"),
     ("min_distance", "min-distance"),
@@ -84,12 +85,18 @@ pub fn remeshed(
     }
     let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
     let spacing = (2.0 * surface.area() / (3f64.sqrt() * n_points as f64)).sqrt();
+    refuse_others_flags(wishes)?;
     let method = method(wishes);
+    if let Some(length) = wishes.tolerance.and_then(|target| target.0).filter(|&length| !(length > 0.0 && length.is_finite())) {
+        bail!("--tolerance is {length}; it must be positive and finite, or off");
+    }
     let default = if sizes.is_empty() { RemeshParams::default().tolerance } else { Some(SIZED_TOLERANCE) };
     let tolerance = wishes.tolerance.map_or(default, |target| target.0.map(|length| length / spacing));
     let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, seed: wishes.seed };
-    let (remeshed, report) = remesh(surface, &params, run).map_err(told)?;
+    let (remeshed, mut report) = remesh(surface, &params, run).map_err(told)?;
+    // What has no area, or touches itself, is mended for the measures alone.
     let made = Surface::repaired(&remeshed.mesh)?;
+    report.notes.extend(made.notes().iter().map(|note| format!("in the new mesh, as measured: {note}")));
     let breaches = targets(&method).map_or_else(Vec::new, |beta| certificate(&made, beta));
     Ok(Made {
         quality: surface_quality(&made),
@@ -131,6 +138,24 @@ fn targets(method: &RemeshMethod) -> Option<f64> {
         RemeshMethod::PushPull(params) => Some(params.coverage_radius? / params.min_distance?),
         RemeshMethod::WellSpaced(params) => Some(params.beta),
         _ => None,
+    }
+}
+
+/// That what belongs to one method is not given for another.
+fn refuse_others_flags(wishes: &RemeshWishes) -> anyhow::Result<()> {
+    let RemeshWishes { method, preset, min_distance, coverage_radius, capacity_tolerance, beta, density, .. } = wishes;
+    let has_beta = matches!(method, RemeshRule::WellSpaced | RemeshRule::OptBeta);
+    let flags = [
+        ("preset", preset.is_some(), "push-pull", *method == RemeshRule::PushPull),
+        ("min-distance", min_distance.is_some(), "push-pull", *method == RemeshRule::PushPull),
+        ("coverage-radius", coverage_radius.is_some(), "push-pull", *method == RemeshRule::PushPull),
+        ("capacity-tolerance", capacity_tolerance.is_some(), "push-pull", *method == RemeshRule::PushPull),
+        ("beta", beta.is_some(), "well-spaced and opt-beta", has_beta),
+        ("density", density.is_some(), "all methods but opt-beta", *method != RemeshRule::OptBeta),
+    ];
+    match flags.iter().find(|(_, is_given, _, is_taken)| *is_given && !is_taken) {
+        Some((name, _, takers, _)) => bail!("--{name} is for --method {takers}"),
+        None => Ok(()),
     }
 }
 

@@ -9,6 +9,7 @@ mod procrustes;
 mod push_pull;
 mod recipes;
 mod study;
+mod surfaces;
 
 pub use html::html;
 pub use lab::Lab;

@@ -60,14 +60,14 @@ pub fn analyze(args: &Analyze) -> anyhow::Result<u8> {
     input::require_one_stdin([Some(path), args.reference.as_ref()].into_iter().flatten())?;
     let pool = session::pool(args.measured.threads)?;
     let TrianglesRead { mesh, mut notes } = read_triangles(path)?;
-    let manifold = surface_of(&mesh, path, false);
+    let manifold = Surface::new(&mesh);
     // What is no manifold is told, and measured as far as it can be.
     let is_manifold = manifold.is_ok();
     let surface = match manifold {
         Ok(surface) => surface,
         Err(error) => {
-            let Ok(surface) = Surface::repaired(&mesh) else { return Err(error) };
-            notes.push(format!("{error}; measured as repaired"));
+            let Ok(surface) = Surface::repaired(&mesh) else { bail!("{}: {error}", path.display()) };
+            notes.push(format!("{}: {error}; measured as repaired", path.display()));
             surface
         }
     };

@@ -9,7 +9,7 @@ const USAGE: &str = "\
 usage: cargo xtask CHORE
   test           all tests: units, laws, numbers, the command line, the examples in the documentation, and the Python package's
   python         the Python package's tests alone: in an environment of its own, target/python
-  bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh]
+  bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh | surfaces]
                  the table of speed and quality, measured on this machine
   gallery        draws the pictures of the README, and the pages of docs/, anew: some five minutes";
 

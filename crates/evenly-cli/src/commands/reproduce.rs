@@ -28,7 +28,7 @@ pub fn run(args: &Reproduce) -> anyhow::Result<u8> {
     interrupt::cancels(&cancel, args.run.quiet)?;
     let bar = session::bar(args.run.quiet, study.parts.len() as u64, "{prefix} [{bar:20}] {pos} of {len} parts, {elapsed}: {msg}");
     bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    let lab = Lab { is_quick: args.quick, cancel, bar };
+    let lab = Lab { is_quick: args.quick, cancel, bar, models: args.models.clone() };
     let pool = session::pool(args.run.threads)?;
     let done = pool.install(|| study.run(&lab, &scraps))?;
     lab.bar.finish_and_clear();

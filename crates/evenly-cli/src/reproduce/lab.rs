@@ -1,6 +1,7 @@
 //! Where reproductions work: runs that can be interrupted, and what is measured of their points.
 
 use std::fmt::{Display, Formatter};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use evenly::{
@@ -30,6 +31,8 @@ pub struct Lab {
     pub is_quick: bool,
     pub cancel: CancelToken,
     pub bar: ProgressBar,
+    /// Models in files, for what is shown on them.
+    pub models: Vec<PathBuf>,
 }
 
 /// How a set is made.

@@ -11,6 +11,7 @@ use super::lab::{Lab, Profile, Recipe};
 use super::part::Part;
 use super::recipes::{by_opt_beta, by_well_spaced, cvt, distmesh, farthest_local};
 use super::study::Study;
+use super::surfaces;
 use crate::method::Method;
 
 pub const STUDY: Study = Study {
@@ -28,6 +29,7 @@ pub const STUDY: Study = Study {
         ("Figure 11", figure_11),
         ("Table 1", table_1),
         ("Table 2", filtering::table_2),
+        ("Figure 14", surfaces::figure_14),
     ],
 };
 

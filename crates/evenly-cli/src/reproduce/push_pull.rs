@@ -7,6 +7,7 @@ use super::lab::{Lab, Profile, Recipe};
 use super::part::Part;
 use super::recipes::{farthest, farthest_of_paper};
 use super::study::Study;
+use super::surfaces;
 use crate::method::Method;
 
 pub const STUDY: Study = Study {
@@ -14,7 +15,14 @@ pub const STUDY: Study = Study {
     title: "Push-Pull, reproduced",
     citation: "Abdalla G. M. Ahmed, Jianwei Guo, Dong-Ming Yan, Jean-Yves Franceschi, Xiaopeng Zhang and Oliver Deussen, A Simple \
         Push-Pull Algorithm for Blue-Noise Sampling, IEEE Transactions on Visualization and Computer Graphics 23(12), 2017.",
-    parts: &[("Table 1", table_1), ("Figure 4a", figure_4a), ("Figure 4b", figure_4b), ("Figure 4c", figure_4c), ("Figure 5", figure_5)],
+    parts: &[
+        ("Table 1", table_1),
+        ("Figure 4a", figure_4a),
+        ("Figure 4b", figure_4b),
+        ("Figure 4c", figure_4c),
+        ("Figure 5", figure_5),
+        ("Table 2", surfaces::table_2),
+    ],
 };
 
 /// The number of points at which the printed figures are consistent with each other.

@@ -224,7 +224,7 @@ def remesh(
     beta : float, optional
         Of 'well-spaced' and 'opt-beta': the wanted ratio of the largest circumradius to the shortest edge.
     iterations : int, optional
-        Passes at most.
+        Passes at most, and as many again after vertices are put or let go.
     density : str or array_like of shape (k,), optional
         'curvature', 'curvature:0.01' (an error in input units), 'lfs', 'linear:z,4', of files 'attr:NAME'; or the wanted lengths of edges at the vertices, in proportion.
     features : float or 'off'

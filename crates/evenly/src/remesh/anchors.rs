@@ -14,8 +14,8 @@ const APART: f64 = 3.0;
 const ARRIVED: f64 = 1e-6;
 
 impl LiveSurface<'_> {
-    /// Puts the nearest vertex to each place of the surface that is farther than `tolerance` spacings from the mesh, the farthest first; where the spacing is wider than the mean, that
-    /// counts. Returns how many it has put.
+    /// Puts the nearest vertex to each place of the surface that is farther than `tolerance` spacings from the mesh, the farthest first; where the spacing is wider than the
+    /// mean, the mean counts. Returns how many it has put.
     pub fn anchor(&mut self, tolerance: f64) -> usize {
         let corners: Vec<[u32; 3]> = self.half_edges().triangles().collect();
         let facets = Facets::new(corners.iter().map(|t| t.map(|v| self.at(v))).collect());

@@ -11,6 +11,8 @@ use crate::surface::Chain;
 const GAP: f64 = 1.1;
 /// A corner is sharp below this, in degrees.
 const SHARP_DEG: f64 = 35.0;
+/// The least part of a gap that is left where gaps at sharp corners are longer.
+const LEAST_ROOM: f64 = 0.5;
 /// A place so near to the end of an edge, relative to its length, is that end.
 const AT_END: f64 = 1e-6;
 
@@ -39,7 +41,13 @@ impl Plan {
 
     /// How far along the chain the points inside are.
     fn places(&self) -> Vec<f64> {
-        let [first, last] = self.at_corners.map(|gap| gap.unwrap_or(self.gap()));
+        let [mut first, mut last] = self.at_corners.map(|gap| gap.unwrap_or(self.gap()));
+        // What a sharp corner asks for is not given where it would leave no room for the others.
+        if self.total - first - last < LEAST_ROOM * self.gap() * (self.n_gaps as f64 - 2.0)
+            || first.max(last) > self.total - LEAST_ROOM * self.gap()
+        {
+            (first, last) = (self.gap(), self.gap());
+        }
         match self.n_gaps {
             ..2 => Vec::new(),
             2 if self.at_corners[0].is_none() => vec![self.total - last],
@@ -52,14 +60,19 @@ impl Plan {
     }
 }
 
-/// Pins the corners, and points between them so many spacings apart.
-pub(super) fn pin_chains(draft: &mut Draft, spacing: f64) {
+/// Pins the corners, and points between them so many spacings apart. Nothing is done if those were more than `most`: then this returns how many.
+pub(super) fn pin_chains(draft: &mut Draft, spacing: f64, most: usize) -> Result<(), usize> {
     let chains = &draft.features.chains;
     let mut plans: Vec<Plan> = chains.iter().map(|chain| Plan::new(draft, chain, spacing)).collect();
+    let n_points = plans.iter().fold(0, |sum: usize, plan| sum.saturating_add(plan.n_gaps - 1));
+    if n_points > most {
+        return Err(n_points);
+    }
     fit_sharp_corners(draft, chains, &mut plans);
     for (chain, plan) in chains.iter().zip(&plans) {
         pin_chain(draft, chain, plan);
     }
+    Ok(())
 }
 
 /// Where two chains meet at a sharp angle, the first point of the one stands at the foot of that of the other.

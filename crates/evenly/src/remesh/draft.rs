@@ -373,7 +373,7 @@ impl<'a> Draft<'a> {
         })
     }
 
-    /// What is left, numbered anew in a given order of the vertices: for each its old number, and the triangles.
+    /// What is left, numbered anew in a given order of the vertices.
     pub fn compact(&self, order: &[u32]) -> HalfEdges {
         let mut number = vec![BORDER; self.vertices.len()];
         for (new, &v) in (0..).zip(order) {

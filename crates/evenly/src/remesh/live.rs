@@ -36,7 +36,7 @@ impl Vertex {
 pub(super) struct Start {
     pub half_edges: HalfEdges,
     pub vertices: Vec<Vertex>,
-    /// Which vertices stay where they are: those on creases and borders.
+    /// Which vertices stay where they are: those on creases, borders and tips.
     pub fixed: Vec<bool>,
     /// The edges along creases and borders, each by its ends in order, sorted.
     pub bonds: Vec<[u32; 2]>,

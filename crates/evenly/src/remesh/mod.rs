@@ -52,9 +52,10 @@ pub struct RemeshParams {
     pub n_points: usize,
     /// By which rule they find their places.
     pub method: RemeshMethod,
-    /// Edges at which the surface turns by more than this are kept, as are borders in any case; in (0, 180). `None` for borders alone.
+    /// Edges at which the surface turns by more than this are kept if they stand out and are some spacings long, and tips if they can be; borders are in any case; in (0, 180).
+    /// `None` for borders alone.
     pub features_deg: Option<f64>,
-    /// Where a vertex of the surface is farther from the mesh than this, in spacings, a vertex is put there and stays; `None` for nowhere.
+    /// Where a vertex of the surface is farther from the mesh than this, in spacings, a vertex is put there, and stays if the targets can be met so; `None` for nowhere.
     pub tolerance: Option<f64>,
     /// How long edges are to be, in proportion, at each vertex of the surface; empty where they are to be alike.
     #[serde(skip)]

@@ -49,13 +49,22 @@ pub(super) fn settle<'a>(
     }
     // What is fixed does not move, though it may be too near to others that are: off the creases it is let go.
     let targets = targets(&params.method);
+    let mut n_released = 0;
     for _ in 0..RELEASES {
-        let has_missed = report.outcome == Outcome::Converged && targets.is_some_and(|targets| !sweep.ground_mut().meets(&targets));
-        if !has_missed || targets.is_none_or(|targets| sweep.ground_mut().release_missed(&targets) == 0) {
+        let has_missed = |targets: &PushPullParams| report.outcome == Outcome::Converged && !sweep.ground_mut().meets(targets);
+        let Some(missed) = targets.filter(has_missed) else { break };
+        let n = sweep.ground_mut().release_missed(&missed);
+        if n == 0 {
             break;
         }
+        n_released += n;
         sweep.change_rule(report.iterations);
         find_places(&mut sweep, params, run, report)?;
+    }
+    if n_released > 0 {
+        report.notes.push(format!(
+            "{n_released} vertices on tips, and where the surface stands out, were let go: they kept the targets from being reached"
+        ));
     }
     let mut live = sweep.into_mesh();
     if report.outcome == Outcome::Converged && targets.is_some_and(|targets| !live.meets(&targets)) {

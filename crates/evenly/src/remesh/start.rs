@@ -21,20 +21,20 @@ pub(super) fn spacing(surface: &Surface, n_points: usize) -> f64 {
 pub(super) fn start(surface: &Surface, features: &Features, sizes: &[f64], n_points: usize, seed: u64) -> Result<Start, Error> {
     let spacing = spacing(surface, n_points);
     let mut draft = Draft::new(surface, features, sizes);
+    let too_few = |least: usize| Error::InvalidParameter {
+        name: "n_points",
+        value: format!("{n_points} where no fewer than {least} are possible"),
+        expected: "as many as the mesh's shape and its features need; without features fewer do",
+    };
     // 1. Points along creases and borders.
-    pin_chains(&mut draft, spacing);
+    pin_chains(&mut draft, spacing, n_points).map_err(too_few)?;
     features.tips.iter().for_each(|&v| draft.pin(v));
     // 2. Vertices to choose from.
     subdivide(&mut draft, spacing, n_points);
     // 3. As many as are wanted.
     let is_reached = eliminate(&mut draft, n_points, seed);
     if !is_reached {
-        let least = draft.n_live;
-        return Err(Error::InvalidParameter {
-            name: "n_points",
-            value: format!("{n_points} where no fewer than {least} are possible"),
-            expected: "as many as the mesh's shape and its features need; without features fewer do",
-        });
+        return Err(too_few(draft.n_live));
     }
     Ok(finished(&draft))
 }

@@ -72,9 +72,9 @@ impl Bvh {
         }
     }
 
-    /// The item nearest to a place, of those nearer than `most`, and the square of its distance; `distance_squared` tells that of an item.
+    /// The item nearest to a place, of those the square of whose distance is below `most`, and that square; `distance_squared` tells that of an item.
     pub fn nearest(&self, p: DVec3, most: f64, distance_squared: impl Fn(u32) -> f64) -> Option<(u32, f64)> {
-        let mut best = (None, most * most);
+        let mut best = (None, most);
         let mut stack = vec![(0usize, 0.0)];
         while let Some((at, bound)) = stack.pop() {
             let Some(node) = self.nodes.get(at).filter(|_| bound < best.1) else { continue };

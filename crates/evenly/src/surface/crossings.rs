@@ -7,7 +7,7 @@ use super::Surface;
 use super::bvh::{Bounds, Bvh};
 use crate::predicates::orientation;
 
-/// The pairs of triangles that cross each other, by their numbers in the surface. Neighbours that only share their edge or corner do not, nor do triangles that
+/// The pairs of triangles that cross each other, by their numbers in the given mesh. Neighbours that only share their edge or corner do not, nor do triangles that
 /// touch or lie in one plane.
 pub fn self_intersections(surface: &Surface) -> Vec<[usize; 2]> {
     let n = surface.n_triangles();
@@ -17,7 +17,7 @@ pub fn self_intersections(surface: &Surface) -> Vec<[usize; 2]> {
         let mut others = Vec::new();
         tree.meeting(bounds[t], |other| {
             if other as usize > t && do_cross(surface, t, other as usize) {
-                others.push([t, other as usize]);
+                others.push([t, other as usize].map(|t| surface.faces[t]));
             }
         });
         others.sort_unstable();

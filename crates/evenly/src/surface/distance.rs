@@ -14,6 +14,8 @@ use super::walk::nearest_in_triangle;
 /// Places on each surface, and on each triangle, at least.
 const PLACES: f64 = 50_000.0;
 const PLACES_A_TRIANGLE: usize = 3;
+/// Triangles, or vertices, that one thread looks at in turn: fixed, so that the bits do not depend on the threads.
+const CHUNK: usize = 128;
 
 /// Distances between a surface and a reference, in input units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -74,13 +76,9 @@ impl Facets {
     /// The square of the distance to the nearest triangle, which then replaces the guess: found soon where the guess is near.
     fn nearest_squared(&self, p: DVec3, guess: &mut u32) -> f64 {
         let most = self.distance_squared(*guess, p);
-        match self.tree.nearest(p, most.sqrt(), |t| self.distance_squared(t, p)) {
-            Some((t, squared)) => {
-                *guess = t;
-                squared.min(most)
-            }
-            None => most,
-        }
+        let nearer = self.tree.nearest(p, most, |t| self.distance_squared(t, p));
+        *guess = nearer.map_or(*guess, |(t, _)| t);
+        nearer.map_or(most, |(_, squared)| squared)
     }
 
     fn distance_squared(&self, t: u32, p: DVec3) -> f64 {
@@ -117,8 +115,17 @@ fn one_way(from: &Surface, to: &Surface) -> Way {
         });
         (area, sum / n as f64 * area, most)
     };
-    let triangles: Vec<(f64, f64, (f64, DVec3))> = (0..from.n_triangles()).into_par_iter().map_init(|| 0, of_triangle).collect();
-    let vertices: Vec<(f64, DVec3)> = from.points.par_iter().map_init(|| 0, |guess, &p| (distance_squared(p, guess), p)).collect();
+    let n = from.n_triangles();
+    let of_chunk = |chunk: usize| {
+        let mut guess = 0;
+        (CHUNK * chunk..n.min(CHUNK * (chunk + 1))).map(|t| of_triangle(&mut guess, t)).collect::<Vec<_>>()
+    };
+    let triangles: Vec<(f64, f64, (f64, DVec3))> = (0..n.div_ceil(CHUNK)).into_par_iter().flat_map_iter(of_chunk).collect();
+    let of_points = |points: &[DVec3]| {
+        let mut guess = 0;
+        points.iter().map(|&p| (distance_squared(p, &mut guess), p)).collect::<Vec<_>>()
+    };
+    let vertices: Vec<(f64, DVec3)> = from.points.par_chunks(CHUNK).flat_map_iter(of_points).collect();
     let (area, sum) = triangles.iter().fold((0.0, 0.0), |(area, sum), t| (area + t.0, sum + t.1));
     let all = vertices.into_iter().chain(triangles.into_iter().map(|t| t.2));
     let (farthest, place) = all.fold((0.0, DVec3::ZERO), |best, other| if other.0 > best.0 { other } else { best });

@@ -44,7 +44,7 @@ fn shrink(points: &[DVec3], tree: &Bvh, v: usize, normal: DVec3, largest: f64) -
     for _ in 0..MAX_STEPS {
         let centre = p - radius * normal;
         let distance = |k: u32| if k as usize == v { f64::INFINITY } else { points[k as usize].distance_squared(centre) };
-        let Some((q, _)) = tree.nearest(centre, radius * (1.0 - 1e-9), distance) else { break };
+        let Some((q, _)) = tree.nearest(centre, (radius * (1.0 - 1e-9)).powi(2), distance) else { break };
         let way = p - points[q as usize];
         let smaller = way.length_squared() / (2.0 * normal.dot(way));
         let next = p - smaller * normal;

@@ -60,13 +60,12 @@ impl Features {
             features.is_crease = with_loose;
             features.chains = chains(surface, &features.is_crease);
             let groups = groups(&features.chains, surface.n_vertices());
-            let holds_kept = |group: usize| {
-                { features.chains.iter().zip(&groups) }
-                    .any(|(chain, &other)| other == group && chain.vertices.iter().any(|&v| is_kept[v as usize]))
-            };
-            let is_held: Vec<bool> = groups.iter().map(|&group| holds_kept(group)).collect();
-            let mut held = is_held.iter();
-            features.retain(surface, |chain| chain.is_border | (held.next() == Some(&true)));
+            let mut is_held = vec![false; groups.len()];
+            for (chain, &group) in features.chains.iter().zip(&groups) {
+                is_held[group] |= chain.vertices.iter().any(|&v| is_kept[v as usize]);
+            }
+            let mut group = groups.iter();
+            features.retain(surface, |chain| chain.is_border | group.next().is_some_and(|&group| is_held[group]));
             features.keep_contrast(surface, &turns, spacing);
         }
         features.corner_normals = corner_normals(surface, &features.is_crease);

@@ -144,9 +144,6 @@ impl Surface {
         }
         let points: Vec<DVec3> = vertices.iter().map(|&v| points[v as usize]).collect();
         let sources = vertices.iter().map(|&v| clean.sources[v as usize]).collect();
-        if half_edges.n_triangles() == 0 {
-            return Err(Error::InvalidMesh("no triangle of the mesh has an area".into()));
-        }
         let mut surface = Self {
             frame,
             points,
@@ -158,6 +155,9 @@ impl Surface {
             attributes: mesh.attributes.clone(),
             notes,
         };
+        if surface.inner_area() == 0.0 {
+            return Err(Error::InvalidMesh("no triangle of the mesh has an area".into()));
+        }
         surface.normals = (0..surface.n_triangles()).map(|t| surface.normal(t).normalize_or_zero()).collect();
         Ok(surface)
     }

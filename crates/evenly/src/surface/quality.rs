@@ -62,7 +62,7 @@ pub struct SurfaceQuality {
 /// A triangle whose angles are not certified.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CertificateBreach {
-    /// Its number in the surface.
+    /// Its number in the given mesh.
     pub triangle: usize,
     /// Its middle, in input units.
     pub at: [f64; 3],
@@ -150,7 +150,12 @@ pub fn certificate(surface: &Surface, beta: f64) -> Vec<CertificateBreach> {
         let [min_angle_deg, max_angle_deg] = extremes(Shape::of(corners).angles);
         let is_certified = min_angle_deg >= least - ROUNDING_DEG && max_angle_deg <= most + ROUNDING_DEG;
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-        (!is_certified).then(|| CertificateBreach { triangle: t, at: surface.frame.outward(middle), min_angle_deg, max_angle_deg })
+        (!is_certified).then(|| CertificateBreach {
+            triangle: surface.faces[t],
+            at: surface.frame.outward(middle),
+            min_angle_deg,
+            max_angle_deg,
+        })
     };
     (0..surface.n_triangles()).filter_map(breach).collect()
 }

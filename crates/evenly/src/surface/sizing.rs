@@ -37,8 +37,8 @@ pub enum SurfaceSizing {
 
 /// Lengths by curvature and feature size differ from the middle one by these factors at most.
 const RANGE: [f64; 2] = [0.3, 1.25];
-/// By an error they may differ more.
-const WIDE_RANGE: [f64; 2] = [0.1, 10.0];
+/// By an error they are at least, and at most, such a part of the diagonal.
+const ERROR_RANGE: [f64; 2] = [1e-4, 0.25];
 /// Lengths grow by at most so much a length.
 const GRADATION: f64 = 0.15;
 /// Curvatures are averaged with those of neighbours so often.
@@ -58,16 +58,20 @@ pub fn surface_sizes(surface: &Surface, sizing: &SurfaceSizing, n_points: Option
             if error.is_none() && n_points.is_none() {
                 return invalid("n_points", "not given".into(), "given, or an error for the curvature");
             }
-            let curvatures = curvatures(surface);
-            let wanted = |&curvature: &f64| match error {
+            let (curvatures, diagonal) = (curvatures(surface), surface.frame.length_inward(surface.diagonal()));
+            match error {
                 // A triangle's middle is about h^2 k / 6 below the surface.
-                Some(error) => (6.0 * surface.frame.length_inward(*error) / curvature).sqrt(),
-                None => 1.0 / curvature,
-            };
-            limited(curvatures.iter().map(wanted).collect(), if error.is_some() { WIDE_RANGE } else { RANGE })
+                Some(error) => {
+                    let wanted = |curvature: f64| (6.0 * surface.frame.length_inward(*error) / curvature).sqrt();
+                    let [low, high] = ERROR_RANGE.map(|part| part * diagonal);
+                    curvatures.into_iter().map(|curvature| wanted(curvature).clamp(low, high)).collect()
+                }
+                // What is flat has no say in what the middle is.
+                None => limited(curvatures.into_iter().map(f64::recip).collect(), diagonal),
+            }
         }
         _ if n_points.is_none() => return invalid("n_points", "not given".into(), "given, but for an error of the curvature"),
-        SurfaceSizing::FeatureSize => limited(feature_sizes(surface), RANGE),
+        SurfaceSizing::FeatureSize => limited(feature_sizes(surface), f64::INFINITY),
         &SurfaceSizing::Linear { axis, ratio } => {
             if axis > 2 || !(ratio > 0.0 && ratio.is_finite()) {
                 return invalid("linear", format!("{axis},{ratio}"), "an axis from 0 to 2, and a ratio that is positive and finite");
@@ -132,14 +136,16 @@ pub(crate) fn weighted_area(surface: &Surface, sizes: &[f64]) -> f64 {
     (0..surface.n_triangles()).map(of_triangle).sum()
 }
 
-/// Sizes within a range around the middle one.
-fn limited(mut sizes: Vec<f64>, [low, high]: [f64; 2]) -> Vec<f64> {
-    let mut sorted = sizes.clone();
-    let middle = sorted.len() / 2;
-    let median = *sorted.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let median = if median > 0.0 && median.is_finite() { median } else { 1.0 };
-    sizes.iter_mut().for_each(|size| *size = if size.is_nan() { median } else { size.clamp(low * median, high * median) });
-    sizes
+/// Sizes within a range around the middle one of those below `most`.
+fn limited(sizes: Vec<f64>, most: f64) -> Vec<f64> {
+    let mut counting: Vec<f64> = sizes.iter().copied().filter(|&size| size > 0.0 && size < most).collect();
+    if counting.is_empty() {
+        return vec![1.0; sizes.len()];
+    }
+    let middle = counting.len() / 2;
+    let median = *counting.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let [low, high] = RANGE.map(|factor| factor * median);
+    sizes.into_iter().map(|size| if size.is_nan() { high } else { size.clamp(low, high) }).collect()
 }
 
 /// The largest curvature at each vertex, by how the normals turn along the edges that end there; averaged with its neighbours.
