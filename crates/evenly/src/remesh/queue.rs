@@ -1,6 +1,6 @@
 //! [`Queue`]: edges by a length, the shortest first, to a sixteenth of an octave.
 //!
-//! Edges of about the same length come in the order of a stack: what came last is near to what was just worked on, in space and so in memory. A heap takes three times as long.
+//! Edges of about the same length come in the order of a stack: what came last is near to what was just worked on, in space and so in memory.
 
 /// Bits of an `f64` that are not looked at: what is above are the exponent, and four bits of the mantissa.
 const IGNORED: u32 = 48;

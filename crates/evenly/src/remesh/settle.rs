@@ -16,7 +16,7 @@ const RENEWALS: [usize; 7] = [1, 2, 4, 8, 12, 20, 30];
 /// After so many passes the last restless vertices are left to themselves, in stages of some passes.
 const EVEN_PASSES: usize = 140;
 const STAGE: usize = 30;
-/// Moves are so much longer then: that takes a fifth of the passes less. With 1.35 some vertices never come to rest.
+/// Moves are so much longer then: that takes about a seventh of the passes less. With 1.35 some vertices never come to rest.
 const STRETCH: f64 = 1.15;
 /// How far they are pushed to the side between stages, in spacings.
 const KICK: f64 = 0.05;
