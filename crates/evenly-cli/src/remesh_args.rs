@@ -87,7 +87,7 @@ pub struct RemeshWishes {
     /// let go where the targets cannot be met otherwise.
     #[arg(long, value_name = "ANGLE", default_value = "40deg", value_parser = parse_features, help_heading = "Shape")]
     pub features: Features,
-    /// How far the input may be from the mesh, where edges are short less in proportion: where it is farther, a vertex is put and kept, if targets can be met so; off for as it comes [default: 0.45 spacings, 0.35 with --density]
+    /// How far the input may be from the mesh, where edges are short less in proportion: where it is farther, a vertex is put and kept, if targets can be met so; off for as it comes [default: 0.5 spacings, 0.35 with --density]
     #[arg(long, value_name = "D", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Shape")]
     pub tolerance: Option<Target>,
     /// Mend what can be without guessing: turn triangles that run the wrong way, separate sheets that touch, cut open what is left

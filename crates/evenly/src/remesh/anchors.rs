@@ -9,7 +9,7 @@ use crate::surface::Facets;
 use crate::sweep::Ground;
 
 /// Anchors are so many spacings away from each other, and from what stays otherwise.
-const APART: f64 = 3.0;
+const APART: f64 = 1.3;
 /// One that lands so near, in spacings, has arrived.
 const ARRIVED: f64 = 1e-6;
 
@@ -27,6 +27,10 @@ impl LiveSurface<'_> {
         };
         let mut places: Vec<(f64, usize, DVec3)> = self.surface_points().par_iter().filter_map(far).collect();
         places.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        // An anchor near which the surface stands out may stand at a better place.
+        let is_near = |&v: &u32| places.iter().any(|(.., p)| self.at(v).distance(*p) < APART * self.local_spacing(v));
+        let misplaced: Vec<u32> = self.anchors.iter().copied().filter(is_near).collect();
+        misplaced.into_iter().for_each(|v| self.loosen(v));
         let fixed = (0..self.n_points() as u32).filter(|&v| self.is_fixed(v));
         let mut kept: Vec<DVec3> = fixed.map(|v| self.at(v)).collect();
         let n_fixed = kept.len();
@@ -38,6 +42,7 @@ impl LiveSurface<'_> {
             let put = free.into_iter().filter(|&v| is_clear(v)).find(|&v| self.put(v, p, &mut buffer));
             if let Some(v) = put {
                 self.fix(v);
+                self.anchors.push(v);
                 kept.push(p);
             }
         }

@@ -22,6 +22,8 @@ pub(super) struct Vertex {
 
 /// Vertices have so many neighbours at most.
 const MOST_NEIGHBOURS: usize = 12;
+/// Collapses that may bend triangles by this, as a cosine, may also leave obtuse triangles between vertices that all stay.
+const LAST_TURN: f64 = -0.5;
 
 pub(super) struct Draft<'a> {
     pub surface: &'a Surface,
@@ -361,6 +363,7 @@ impl<'a> Draft<'a> {
             }
         }
         let (from, to) = (self.at(v), self.at(u));
+        let is_spared = !self.vertices[v as usize].is_on_crease && least_turn > LAST_TURN;
         self.mesh.around(self.outgoing[v as usize]).all(|h| {
             let [x, y] = [self.mesh.target(h), self.mesh.origin[prev(h) as usize]];
             if x == u || y == u {
@@ -369,8 +372,17 @@ impl<'a> Draft<'a> {
             let [b, c] = [x, y].map(|v| self.at(v));
             let (old, new) = ((b - from).cross(c - from), (b - to).cross(c - to));
             let is_turned = new.dot(old) <= least_turn * new.length() * old.length();
-            !is_turned && Guard::FIRM.allows(self.fit(old, [v, x, y]), self.fit(new, [u, x, y]))
+            !is_turned
+                && !(is_spared && self.is_wedged([u, x, y]))
+                && Guard::FIRM.allows(self.fit(old, [v, x, y]), self.fit(new, [u, x, y]))
         })
+    }
+
+    /// Whether a triangle would be obtuse for good.
+    fn is_wedged(&self, corners: [u32; 3]) -> bool {
+        let [a, b, c] = corners.map(|v| self.at(v));
+        let is_obtuse = |at: DVec3, one: DVec3, other: DVec3| (one - at).dot(other - at) < 0.0;
+        corners.iter().all(|&v| self.vertices[v as usize].is_pinned) && (is_obtuse(a, b, c) || is_obtuse(b, c, a) || is_obtuse(c, a, b))
     }
 
     /// What is left, numbered anew in a given order of the vertices.

@@ -12,6 +12,8 @@ const CHOICE: f64 = 4.0;
 /// But never into more than so many times the wanted vertices, or edges shorter than this.
 const MOST_TIMES: usize = 60;
 const SHORTEST: f64 = 0.3;
+/// At which part of them edges are split, at random up to as far from the other end: in the middle, the places on regular surfaces would be waves of density.
+const NEAREST_SPLIT: f64 = 0.35;
 /// By how much of itself a length is lengthened at random.
 const RANDOM: f64 = 0.3;
 /// Edges on creases count so much shorter whose ends are to be taken away.
@@ -20,7 +22,7 @@ const LOOSE: f64 = 0.5;
 const TURNS: [f64; 5] = [0.5, 0.2, 0.0, -0.3, -0.9];
 
 /// Splits the longest edges until there are vertices enough to choose from.
-pub(super) fn subdivide(draft: &mut Draft, spacing: f64, n_wanted: usize) {
+pub(super) fn subdivide(draft: &mut Draft, spacing: f64, n_wanted: usize, seed: u64) {
     let mut queue = Queue::default();
     let add = |queue: &mut Queue, draft: &Draft, h: u32| {
         let length = draft.length(h);
@@ -40,7 +42,7 @@ pub(super) fn subdivide(draft: &mut Draft, spacing: f64, n_wanted: usize) {
         if is_short && draft.n_live as f64 >= enough || draft.n_live >= most {
             break;
         }
-        let m = draft.split(h, 0.5);
+        let m = draft.split(h, NEAREST_SPLIT + (1.0 - 2.0 * NEAREST_SPLIT) * unit(seed, [a, b]));
         ring.clear();
         ring.extend(draft.mesh.around(draft.outgoing[m as usize]).flat_map(|h| [h, prev(h)]));
         ring.retain(|&h| draft.mesh.twin[h as usize] == BORDER || draft.mesh.origin[h as usize] == m);

@@ -52,6 +52,10 @@ pub(super) struct LiveSurface<'a> {
     pub(super) is_uniform: bool,
     pub(super) fixed: Vec<bool>,
     pub(super) n_fixed: usize,
+    /// Those of them that have been put where the surface stands out.
+    pub(super) anchors: Vec<u32>,
+    /// How many that stayed were let go.
+    pub(super) n_released: usize,
     pub(super) bonds: Vec<[u32; 2]>,
     /// How often a vertex' moves were blocked.
     blocked: Vec<AtomicU32>,
@@ -70,6 +74,8 @@ impl<'a> LiveSurface<'a> {
             mesh: SharedMesh::new(&half_edges, vertices.iter().map(Vertex::numbers)),
             blocked: vertices.iter().map(|_| AtomicU32::new(0)).collect(),
             n_fixed: fixed.iter().filter(|&&is_fixed| is_fixed).count(),
+            anchors: Vec::new(),
+            n_released: 0,
             fixed,
             bonds,
             spacing: 1.0,
@@ -111,10 +117,17 @@ impl<'a> LiveSurface<'a> {
         self.fixed[v as usize] = true;
     }
 
-    /// Lets a vertex go.
-    pub(super) fn release(&mut self, v: u32) {
+    /// Lets a vertex move again.
+    pub(super) fn loosen(&mut self, v: u32) {
         self.n_fixed -= usize::from(self.is_fixed(v));
         self.fixed[v as usize] = false;
+        self.anchors.retain(|&anchor| anchor != v);
+    }
+
+    /// Lets a vertex go for good.
+    pub(super) fn release(&mut self, v: u32) {
+        self.n_released += usize::from(self.is_fixed(v));
+        self.loosen(v);
     }
 
     pub(super) fn surface_points(&self) -> &[DVec3] {

@@ -66,14 +66,7 @@ pub struct RemeshParams {
 
 impl Default for RemeshParams {
     fn default() -> Self {
-        Self {
-            n_points: 1000,
-            method: RemeshMethod::default(),
-            features_deg: Some(40.0),
-            tolerance: Some(0.45),
-            sizes: Vec::new(),
-            seed: 0,
-        }
+        Self { n_points: 1000, method: RemeshMethod::default(), features_deg: Some(40.0), tolerance: Some(0.5), sizes: Vec::new(), seed: 0 }
     }
 }
 

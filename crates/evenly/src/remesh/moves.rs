@@ -17,10 +17,15 @@ const ROOM: f64 = 0.02;
 const PARTS: [f64; 3] = [1.0, 0.5, 0.25];
 
 impl LiveSurface<'_> {
-    /// Pushes what is dirty by up to so many spacings to any side; all of that, or what has been blocked.
+    /// Pushes what is dirty by up to so many spacings to any side; all of that, or what has been blocked. Of a vertex that stays, what stands around it.
     pub fn kick(&mut self, by: f64, is_all: bool, random: &mut Random) {
         let mut buffer = SurfaceBuffer::default();
-        for v in (0..self.n_points() as u32).filter(|&v| self.is_dirty(v) && (is_all || self.n_blocked(v) > 0)).collect::<Vec<_>>() {
+        let mut pushed: Vec<u32> = (0..self.n_points() as u32).filter(|&v| self.is_dirty(v) && (is_all || self.n_blocked(v) > 0)).collect();
+        for v in pushed.clone().into_iter().filter(|&v| self.is_fixed(v)) {
+            self.walk(v, &mut buffer.moving);
+            pushed.extend(buffer.moving.iter().map(|spoke| spoke.vertex));
+        }
+        for v in pushed {
             let way = DVec3::new(random.signed(), random.signed(), random.signed());
             self.go(v, by * self.local_spacing(v) * way, &mut buffer);
         }

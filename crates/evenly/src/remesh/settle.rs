@@ -18,10 +18,13 @@ const EVEN_PASSES: usize = 140;
 const STAGE: usize = 30;
 /// Moves are so much longer then: that takes about a seventh of the passes less. With 1.35 some vertices never come to rest.
 const STRETCH: f64 = 1.15;
-/// How far they are pushed to the side between stages, in spacings.
+/// How far those are pushed to the side between stages that were blocked, in spacings.
 const KICK: f64 = 0.05;
-/// In so many stages only those that were blocked are.
+/// After so many stages all are, farther.
 const GENTLE_STAGES: usize = 3;
+const HARD_KICK: f64 = 0.1;
+/// And after so many, anchors among them are let go.
+const PATIENCE: usize = 5;
 /// So often vertices are put where the surface stands out.
 const ANCHORINGS: usize = 2;
 /// So often those are let go that keep others from their places.
@@ -49,24 +52,22 @@ pub(super) fn settle<'a>(
     }
     // What is fixed does not move, though it may be too near to others that are: off the creases it is let go.
     let targets = targets(&params.method);
-    let mut n_released = 0;
     for _ in 0..RELEASES {
         let has_missed = |targets: &PushPullParams| report.outcome == Outcome::Converged && !sweep.ground_mut().meets(targets);
         let Some(missed) = targets.filter(has_missed) else { break };
-        let n = sweep.ground_mut().release_missed(&missed);
-        if n == 0 {
+        if sweep.ground_mut().release_missed(&missed) == 0 {
             break;
         }
-        n_released += n;
         sweep.change_rule(report.iterations);
         find_places(&mut sweep, params, run, report)?;
     }
+    let mut live = sweep.into_mesh();
+    let n_released = live.n_released;
     if n_released > 0 {
         report.notes.push(format!(
             "{n_released} vertices on tips, and where the surface stands out, were let go: they kept the targets from being reached"
         ));
     }
-    let mut live = sweep.into_mesh();
     if report.outcome == Outcome::Converged && targets.is_some_and(|targets| !live.meets(&targets)) {
         report.outcome = Outcome::IterationLimit;
         report.notes.push("vertices that stay where they are, on creases, borders and tips, keep the targets from being reached".into());
@@ -113,10 +114,13 @@ fn push_and_pull(
     let begin = report.iterations;
     let max_passes = begin + targets.max_passes.unwrap_or(MOST_PASSES);
     let plan = Plan { schedule: targets.schedule, keeps_best: true, ..Plan::of_passes(max_passes, seed) };
-    // 1. All rules, while most vertices find their places.
-    let mut ending = if begin == 0 { renew(sweep, &rule, &plan, run, report) } else { Ending::PassLimit };
-    if ending == Ending::PassLimit {
-        ending = sweep.run(&rule, &Plan { max_passes: max_passes.min(begin + EVEN_PASSES), ..plan }, run, report);
+    // 1. All rules, while most vertices find their places; later only few have lost theirs.
+    let mut ending = Ending::PassLimit;
+    if begin == 0 {
+        ending = renew(sweep, &rule, &plan, run, report);
+        if ending == Ending::PassLimit {
+            ending = sweep.run(&rule, &Plan { max_passes: max_passes.min(EVEN_PASSES), ..plan }, run, report);
+        }
     }
     // 2. In narrow folds a few may not come to rest: without the rule of areas, with longer moves, and after a push to the side they do.
     let capacity_tolerance = if rule.min_distance.or(rule.coverage_radius).is_some() { None } else { rule.capacity_tolerance };
@@ -125,7 +129,12 @@ fn push_and_pull(
     while ending == Ending::PassLimit && report.iterations < max_passes {
         ending = sweep.run(&rule, &Plan { max_passes: max_passes.min(report.iterations + STAGE), ..plan }, run, report);
         if ending == Ending::PassLimit && report.iterations < max_passes {
-            sweep.ground_mut().kick(KICK, n_stages >= GENTLE_STAGES, &mut Random::new(seed, n_stages as u64));
+            let is_gentle = n_stages < GENTLE_STAGES;
+            let by = if is_gentle { KICK } else { HARD_KICK };
+            sweep.ground_mut().kick(by, !is_gentle, &mut Random::new(seed, n_stages as u64));
+            if n_stages >= PATIENCE {
+                sweep.ground_mut().release_restless();
+            }
         }
         n_stages += 1;
     }

@@ -30,7 +30,7 @@ pub(super) fn start(surface: &Surface, features: &Features, sizes: &[f64], n_poi
     pin_chains(&mut draft, spacing, n_points).map_err(too_few)?;
     features.tips.iter().for_each(|&v| draft.pin(v));
     // 2. Vertices to choose from.
-    subdivide(&mut draft, spacing, n_points);
+    subdivide(&mut draft, spacing, n_points, seed);
     // 3. As many as are wanted.
     let is_reached = eliminate(&mut draft, n_points, seed);
     if !is_reached {

@@ -48,6 +48,12 @@ impl LiveSurface<'_> {
         held.len()
     }
 
+    /// Lets go the anchors that find no rest.
+    pub fn release_restless(&mut self) {
+        let restless: Vec<u32> = self.anchors.iter().copied().filter(|&v| self.mesh.is_dirty(v)).collect();
+        restless.into_iter().for_each(|v| self.release(v));
+    }
+
     /// The largest circumradius over the shortest edge, once all edges are Delaunay.
     pub fn beta(&mut self) -> f64 {
         self.legalize();
