@@ -27,6 +27,7 @@ fn shell() -> Shell {
     shell.write("torus.off", off(&torus(40, 16)));
     shell.write("cube.off", off(&cube(2)));
     shell.write("edge.off", off(&two_at_an_edge()));
+    shell.write("flat.txt", "# x y\n1 2\n");
     shell
 }
 
@@ -84,6 +85,20 @@ fn points_are_sampled() {
 }
 
 #[test]
+fn given_points_are_a_start() {
+    let shell = shell();
+    for (ending, n) in [("csv", 321), ("txt", 300), ("ply", 300)] {
+        shell.ok(&format!("sample torus.off -n {n} --method white -o p.{ending}"));
+        shell.ok(&format!("remesh torus.off --start p.{ending} --method eliminate -o m.off --force --report r.json"));
+        let record = json(&shell.read("r.json"));
+        assert_eq!(record["quality"]["n_vertices"], n, "{ending}");
+    }
+    // Of a mesh the vertices, and fewer than there are.
+    shell.ok("remesh torus.off --start m.off -n 250 -o n.off --report r.json --force");
+    assert_eq!(json(&shell.read("r.json"))["quality"]["n_vertices"], 250);
+}
+
+#[test]
 fn bad_input_is_one_clear_error() {
     let shell = shell();
     for (words, expected) in [
@@ -96,6 +111,9 @@ fn bad_input_is_one_clear_error() {
         ("remesh torus.off -n 100 --density attr:heat -o m.ply", "attr"),
         ("remesh torus.off -n 100 --features 200deg -o m.ply", "below 180"),
         ("remesh torus.off -n 100 -o m.geojson", "flat"),
+        ("remesh torus.off -n 100 --start edge.off -o m.ply", "at least as many"),
+        ("remesh torus.off --start flat.txt -o m.ply", "flat.txt:2: 2 numbers"),
+        ("remesh - --start - -o m.ply", "stdin"),
         ("sample torus.off --spacing=-1 -o p.csv", "positive"),
         ("analyze torus.off --certify 0.1", "0.5 or more"),
     ] {

@@ -4,6 +4,8 @@
 
 mod solids;
 
+use std::collections::HashSet;
+
 use evenly::{
     Error, LloydParams, OptBetaParams, Outcome, RemeshMethod, RemeshParams, Remeshed, Report, RunContext, Surface, SurfaceSampling,
     SurfaceSizing, TriangleMesh, WellSpacedParams, certificate, remesh, sample_surface, self_intersections, surface_distance,
@@ -141,6 +143,64 @@ fn every_method_runs_and_keeps_the_number() {
     assert!(quality(RemeshMethod::Lloyd(LloydParams::default())).mean_quality > 0.9);
     assert!(quality(RemeshMethod::OptBeta(OptBetaParams { beta: 0.8, ..OptBetaParams::default() })).beta < 0.9);
     assert!(quality(RemeshMethod::DistMesh(Default::default())).mean_quality > 0.85);
+}
+
+fn positions(surface: &Surface, sampling: SurfaceSampling, seed: u64) -> Vec<[f64; 3]> {
+    let (points, _) = sample_surface(surface, sampling, seed, &mut RunContext::default()).unwrap();
+    points.into_iter().map(|point| point.position).collect()
+}
+
+#[test]
+fn a_mesh_of_given_points_has_these_vertices() {
+    for (name, mesh, n) in all() {
+        let surface = Surface::new(&mesh).unwrap();
+        for (n, seed) in [(n, 1), (2 * n, 2)] {
+            let start = positions(&surface, SurfaceSampling::White(n), seed);
+            let method = RemeshMethod::Eliminate;
+            let params = RemeshParams { n_points: n, method, start, seed, features_deg: None, ..RemeshParams::default() };
+            let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
+            let bits = |p: &[f64; 3]| p.map(f64::to_bits);
+            let given: HashSet<[u64; 3]> = params.start.iter().map(bits).collect();
+            let n_own = made.mesh.vertices.iter().filter(|p| params.start.iter().all(|q| distance(**p, *q) > 1e-12)).count();
+            let made = Surface::new(&made.mesh).unwrap();
+            assert_eq!((made.n_vertices(), given.len()), (n, n), "{name}");
+            assert_eq!(made.euler_characteristic(), surface.euler_characteristic(), "{name}");
+            assert_eq!(made.n_components(), surface.n_components(), "{name}");
+            // A border has its own, and some are in the way where the points are too sparse for the shape.
+            let most = if made.is_closed() { n / 20 } else { n / 4 };
+            assert!(n_own <= most, "{name}: {n_own} of {n}");
+        }
+    }
+}
+
+#[test]
+fn given_points_are_a_start_as_good_as_another() {
+    let surface = Surface::new(&torus(40, 20)).unwrap();
+    let start = positions(&surface, SurfaceSampling::White(1500), 4);
+    for n_points in [1200, 1500] {
+        let params = RemeshParams { n_points, start: start.clone(), ..RemeshParams::default() };
+        let (made, report) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
+        assert_eq!((report.outcome, made.mesh.vertices.len()), (Outcome::Converged, n_points));
+        assert_eq!(surface_quality(&Surface::new(&made.mesh).unwrap()).obtuse_triangles, 0);
+    }
+    // A mesh's own vertices make it again, also with creases.
+    for mesh in [torus(40, 20), cube(2)] {
+        let surface = Surface::new(&mesh).unwrap();
+        let (first, _) = remeshed(&surface, 900, 3);
+        let params =
+            RemeshParams { n_points: 900, method: RemeshMethod::Eliminate, start: first.mesh.vertices.clone(), ..RemeshParams::default() };
+        let (again, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
+        for p in &again.mesh.vertices {
+            assert!(first.mesh.vertices.iter().any(|q| distance(*p, *q) < 1e-9), "{p:?}");
+        }
+    }
+    let refused = |start: Vec<[f64; 3]>| {
+        let params = RemeshParams { n_points: start.len().max(10), start, ..RemeshParams::default() };
+        remesh(&surface, &params, &mut RunContext::default()).unwrap_err().to_string()
+    };
+    assert!(refused(vec![[1.0, 0.0, 0.0]; 9]).contains("at least as many"));
+    assert!(refused([vec![[f64::NAN; 3]], start.clone()].concat()).contains("finite"));
+    assert!(refused([vec![start[7]], start.clone()].concat()).contains("the points 0 and 8"));
 }
 
 #[test]
@@ -293,6 +353,7 @@ proptest! {
         vertices in prop::collection::vec(prop::array::uniform3(prop_oneof![-1.0..1.0f64, Just(0.0), Just(1.0), Just(1e-300), Just(1e300)]), 3..12),
         corners in prop::collection::vec(prop::array::uniform3(0..12usize), 1..20),
         n_points in 4..60usize,
+        start in prop_oneof![Just(Vec::new()), prop::collection::vec(prop::array::uniform3(-1.0..1.0f64), 60)],
     ) {
         let n = vertices.len();
         let mesh = TriangleMesh { vertices, triangles: corners.into_iter().map(|t| t.map(|v| v % n)).collect(), attributes: Vec::new() };
@@ -300,6 +361,7 @@ proptest! {
         if let Ok(surface) = Surface::repaired(&mesh) {
             let params = RemeshParams {
                 n_points,
+                start,
                 method: RemeshMethod::PushPull(evenly::PushPullParams { max_passes: Some(20), ..evenly::PushPullParams::default() }),
                 ..RemeshParams::default()
             };

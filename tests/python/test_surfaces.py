@@ -60,6 +60,15 @@ def test_sizes_features_and_methods():
     assert evenly.remesh(OCTAHEDRON, 500, features="off", method="lloyd").quality.mean_quality > 0.85
 
 
+def test_given_points_are_a_start():
+    shape = torus()
+    points = evenly.sample(shape, 400, method="white")
+    mesh = evenly.remesh(shape, start=points, method="eliminate")
+    order = lambda rows: rows[np.lexsort(rows.T)]  # noqa: E731
+    np.testing.assert_allclose(order(mesh.vertices), order(points.positions), atol=1e-12)
+    assert len(evenly.remesh(shape, 300, start=points.positions).vertices) == 300
+
+
 def test_points_lie_on_the_surface():
     vertices, triangles = torus()
     for method in ("push-pull", "eliminate", "white"):

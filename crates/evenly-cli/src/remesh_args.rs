@@ -43,7 +43,7 @@ pub struct Remesh {
 
 /// What a new mesh is to be.
 #[derive(Args)]
-#[command(group = ArgGroup::new("size").required(true).multiple(true).args(["n_points", "spacing", "density"]))]
+#[command(group = ArgGroup::new("size").required(true).multiple(true).args(["n_points", "spacing", "density", "start"]))]
 pub struct RemeshWishes {
     /// How many vertices, exactly
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "spacing")]
@@ -51,6 +51,9 @@ pub struct RemeshWishes {
     /// The length of edges, in the input's units, instead; with a density their mean
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
+    /// Points at which vertices begin, as many as are wanted or more: .csv or .txt with x y z, or the vertices of a mesh; -n is their number unless given
+    #[arg(long, value_name = "FILE")]
+    pub start: Option<PathBuf>,
     /// The same seed gives the same mesh
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -106,6 +109,8 @@ pub enum RemeshRule {
     OptBeta,
     /// Lloyd's method: to the centroids of the Voronoi cells
     Lloyd,
+    /// They stay at the start: sample elimination, or the points of --start
+    Eliminate,
     /// Springs between neighbours (Persson and Strang)
     #[value(name = "distmesh")]
     DistMesh,

@@ -8,7 +8,7 @@ use evenly::{
     RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, WellSpacedParams, certificate,
     expected_vertices, remesh, self_intersections, surface_distance, surface_quality, surface_sizes,
 };
-use evenly_io::read_numbers;
+use evenly_io::{read_cloud, read_numbers};
 use serde_json::Value;
 
 use crate::measured::told;
@@ -18,11 +18,12 @@ use crate::remesh_args::RemeshRule;
 pub use crate::remesh_args::RemeshWishes;
 
 /// Parameters, and the flags that hold them.
-const FLAGS: [(&str, &str); 10] = [
+const FLAGS: [(&str, &str); 11] = [
     ("n_points", "n-points"),
     ("features_deg", "features"),
     ("error", "density curvature"),
     ("sizes", "density"),
+    ("start", "start"),
     ("linear", "density linear"),
     ("attr", "density attr"),
     ("min_distance", "min-distance"),
@@ -65,7 +66,7 @@ pub fn surface_of(mesh: &TriangleMesh, name: &Path, is_repaired: bool) -> anyhow
     })
 }
 
-/// Makes a new mesh; of wishes in words see [`wishes`].
+/// Makes a new mesh, from a start if there is one; of wishes in words see [`wishes`].
 ///
 /// # Errors
 /// As [`remesh`], with the names of flags; `name` is the mesh's.
@@ -74,10 +75,12 @@ pub fn remeshed(
     name: &Path,
     wishes: &RemeshWishes,
     sizing: Option<&SurfaceSizing>,
+    start: Vec<[f64; 3]>,
     run: &mut RunContext,
 ) -> anyhow::Result<Made> {
     let told = |e| told(e, name, &FLAGS);
-    let mut n_points = number_of(surface, wishes.n_points, wishes.spacing)?;
+    let of_start = (!start.is_empty()).then_some(start.len());
+    let mut n_points = number_of(surface, wishes.n_points, wishes.spacing)?.or(of_start);
     let mut sizes = Vec::new();
     if let Some(sizing) = sizing {
         sizes = surface_sizes(surface, sizing, n_points).map_err(told)?;
@@ -92,7 +95,7 @@ pub fn remeshed(
     }
     let default = if sizes.is_empty() { RemeshParams::default().tolerance } else { Some(SIZED_TOLERANCE) };
     let tolerance = wishes.tolerance.map_or(default, |target| target.0.map(|length| length / spacing));
-    let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, seed: wishes.seed };
+    let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, start, seed: wishes.seed };
     let (remeshed, mut report) = remesh(surface, &params, run).map_err(told)?;
     // What has no area, or touches itself, is mended for the measures alone.
     let made = Surface::repaired(&remeshed.mesh)?;
@@ -184,6 +187,7 @@ fn method(wishes: &RemeshWishes) -> RemeshMethod {
             set(&mut params.iterations, iterations);
             RemeshMethod::OptBeta(params)
         }
+        RemeshRule::Eliminate => RemeshMethod::Eliminate,
         RemeshRule::Lloyd => {
             let mut params = LloydParams { seed, ..LloydParams::default() };
             set(&mut params.iterations, iterations);
@@ -204,6 +208,14 @@ pub(crate) fn number_of(surface: &Surface, n_points: Option<usize>, spacing: Opt
     }
     let of_spacing = |spacing: f64| (expected_vertices(surface, &vec![spacing; surface.n_vertices()]).round() as usize).max(4);
     Ok(n_points.or(spacing.map(of_spacing)))
+}
+
+/// The points that `--start` names, if it does.
+///
+/// # Errors
+/// Files that cannot be read.
+pub fn start(wishes: &RemeshWishes) -> anyhow::Result<Vec<[f64; 3]>> {
+    Ok(wishes.start.as_deref().map(read_cloud).transpose()?.unwrap_or_default())
 }
 
 /// What `--density` says, if anything.

@@ -16,7 +16,7 @@ use crate::figure::{compared_svg, shaded_figure};
 use crate::file::read_bytes;
 use crate::meshes::encoded;
 use crate::output::write_svg;
-use crate::{Error, MeshFormat, Target};
+use crate::{Error, MeshFormat, Target, text};
 
 /// What a file of triangles holds.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -48,13 +48,37 @@ const ENDINGS: [(&str, Kind); 6] =
 /// [`Error::Content`] with the file's name, and the line or the number of what is wrong with it; [`Error::Format`] where nothing tells the format.
 pub fn read_triangles(path: &Path) -> Result<TrianglesRead, Error> {
     let (name, bytes) = read_bytes(path)?;
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let known = ENDINGS.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known)).map(|&(_, kind)| kind);
-    let kind = known.or_else(|| evident(&bytes)).ok_or_else(|| {
+    let kind = kind_of(path, &bytes).ok_or_else(|| {
         let choices = ENDINGS.iter().map(|(name, _)| format!(".{name}")).collect::<Vec<_>>().join(" ");
         Error::Format { name: name.clone(), problem: "neither its ending nor its first bytes tell a format of meshes", choices }
     })?;
-    parse(kind, &name, &bytes, path.parent().unwrap_or(Path::new("")))
+    parse(kind, &name, &bytes, folder_of(path))
+}
+
+/// Reads points in space: the vertices of a mesh, or of `.ply` without faces, or the first three numbers of each line of text.
+///
+/// # Errors
+/// [`Error::Content`] with the file's name, and the line or the number of what is wrong with it.
+pub fn read_cloud(path: &Path) -> Result<Vec<[f64; 3]>, Error> {
+    let (name, bytes) = read_bytes(path)?;
+    let points = match kind_of(path, &bytes) {
+        Some(Kind::Ply) => ply::read_vertices_of(&name, &bytes)?,
+        Some(kind) => parse(kind, &name, &bytes, folder_of(path))?.mesh.vertices,
+        None => text::read_starts(&name, &bytes)?,
+    };
+    if points.is_empty() { Err(Error::content(name, "there are no points in it")) } else { Ok(points) }
+}
+
+/// The format that a file's ending tells, or its first bytes.
+fn kind_of(path: &Path, bytes: &[u8]) -> Option<Kind> {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    let known = ENDINGS.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known)).map(|&(_, kind)| kind);
+    known.or_else(|| evident(bytes))
+}
+
+/// Where other files lie that a file names.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
 }
 
 /// The format that the first bytes tell.

@@ -78,6 +78,30 @@ pub(crate) fn read_rows<const N: usize>(name: &str, bytes: &[u8]) -> Result<Vec<
     if rows.is_empty() { Err(Error::content(name, "there is nothing in it")) } else { Ok(rows) }
 }
 
+/// Reads the first three numbers of each line, after a first line of names if there is one.
+pub(crate) fn read_starts(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Error> {
+    let text = std::str::from_utf8(bytes).map_err(|_| Error::content(name, "this is neither text nor a mesh"))?;
+    let lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
+    let mut rows = Vec::new();
+    let mut is_first = true;
+    for (number, line) in lines {
+        let line = line.split('#').next().unwrap_or_default();
+        let fields: Vec<&str> = line.split(is_separator).filter(|field| !field.is_empty()).collect();
+        let was_first = !fields.is_empty() && std::mem::take(&mut is_first);
+        if fields.is_empty() || was_first && !fields.iter().any(|field| is_number(field)) {
+            continue;
+        }
+        let at = |problem| Error::content(format!("{name}:{number}"), problem);
+        let [x, y, z, ..] = fields[..] else { return Err(at(format!("{} numbers, expected x y z", fields.len()))) };
+        let mut row = [0.0; 3];
+        for (number, field) in row.iter_mut().zip([x, y, z]) {
+            *number = parse(field).map_err(at)?;
+        }
+        rows.push(row);
+    }
+    Ok(rows)
+}
+
 fn is_separator(c: char) -> bool {
     c.is_whitespace() || matches!(c, ',' | ';' | '"')
 }

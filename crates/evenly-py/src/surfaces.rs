@@ -59,10 +59,12 @@ pub fn remesh(
     shape: Shape,
     words: Vec<String>,
     sizes: Option<Vec<f64>>,
+    start: Option<Rows>,
     threads: Option<usize>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let (mesh, name, mut notes) = shape.mesh(py)?;
+    let start = start.map(|start| rows(&start)).transpose()?;
     run(py, Terms { threads, callback }, move |context, _| {
         let wishes = remeshed::wishes(&words)?;
         let surface = surface(&mesh, &name, wishes.repair, &mut notes)?;
@@ -70,7 +72,11 @@ pub fn remesh(
             Some(sizes) => Some(SurfaceSizing::Given(sizes)),
             None => remeshed::sizing(&wishes)?,
         };
-        let made = remeshed(&surface, &name, &wishes, sizing.as_ref(), context)?;
+        let start = match start {
+            Some(start) => start,
+            None => remeshed::start(&wishes)?,
+        };
+        let made = remeshed(&surface, &name, &wishes, sizing.as_ref(), start, context)?;
         notes.extend(made.report.notes.iter().cloned());
         let said = json(&serde_json::json!({
             "quality": made.quality,

@@ -17,10 +17,21 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
+    let (building, is_text) = read_elements(name, bytes, &[("vertex", &AXES[..]), ("face", &CORNERS[..1])])?;
+    building.finish(name, |place| if is_text { format!("{name}:{place}") } else { format!("{name}, face {place}") })
+}
+
+/// The vertices alone, whether there are faces or not.
+pub(super) fn read_vertices_of(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Error> {
+    Ok(read_elements(name, bytes, &[("vertex", &AXES[..])])?.0.mesh.vertices)
+}
+
+/// What is in the file, which must have each of these elements once; and whether it is text.
+fn read_elements(name: &str, bytes: &[u8], needed: &[(&str, &[&str])]) -> Result<(Building, bool), Error> {
     let mut text = Text::new(name, bytes);
     let header = Header::read(&mut text)?;
-    for (kind, wanted) in [("vertex", &AXES[..]), ("face", &CORNERS[..1])] {
-        if header.elements.iter().filter(|element| element.name == kind).count() != 1 {
+    for (kind, wanted) in needed {
+        if header.elements.iter().filter(|element| element.name == *kind).count() != 1 {
             return Err(Error::content(name, format!("its header should have one element {kind}, with {}", wanted.join(", "))));
         }
     }
@@ -33,8 +44,7 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
             _ => skip(element, &mut values)?,
         }
     }
-    let is_text = values.is_text();
-    building.finish(name, |place| if is_text { format!("{name}:{place}") } else { format!("{name}, face {place}") })
+    Ok((building, values.is_text()))
 }
 
 fn read_vertices(element: &Element, values: &mut Values, building: &mut Building) -> Result<(), Error> {

@@ -105,6 +105,7 @@ def remesh(
     shape: _Shape,
     words: list[str],
     sizes: list[float] | None,
+    start: _Rows | None,
     threads: int | None,
     callback: _Callback,
 ) -> tuple[_Places, NDArray[np.int64], list[tuple[str, NDArray[np.float64]]], str]: ...

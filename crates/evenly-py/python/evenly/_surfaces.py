@@ -191,7 +191,7 @@ def remesh(
     *,
     spacing: float | None = None,
     seed: Seed = 0,
-    method: Literal["push-pull", "well-spaced", "opt-beta", "lloyd", "distmesh"] = "push-pull",
+    method: Literal["push-pull", "well-spaced", "opt-beta", "lloyd", "eliminate", "distmesh"] = "push-pull",
     preset: str | None = None,
     min_distance: float | Literal["off"] | None = None,
     coverage_radius: float | Literal["off"] | None = None,
@@ -199,6 +199,7 @@ def remesh(
     beta: float | None = None,
     iterations: int | None = None,
     density: "str | ArrayLike | None" = None,
+    start: "ArrayLike | None" = None,
     features: float | Literal["off"] = 40.0,
     tolerance: float | Literal["off"] | None = None,
     repair: bool = False,
@@ -212,13 +213,13 @@ def remesh(
     shape : mesh, file, or pair of arrays
         What trimesh, pyvista and meshio have; a path to .obj, .ply, .stl, .off, .gltf or .glb; or vertices of shape (k, 3) and triangles of shape (l, 3).
     n : int, optional
-        How many vertices, exactly. This, `spacing`, or a density with an error.
+        How many vertices, exactly. This, `spacing`, a density with an error, or a start.
     spacing : float, optional
         The length of edges, in input units, instead.
     seed : int, SeedSequence, Generator or None
         As in `generate`.
     method : str
-        By which rule vertices move.
+        By which rule vertices move; with 'eliminate' they stay at the start.
     preset, min_distance, coverage_radius, capacity_tolerance : optional
         Targets of 'push-pull', relative to the spacing; {0.90, 0.63} by default, with a tolerance of 0.1.
     beta : float, optional
@@ -227,6 +228,8 @@ def remesh(
         Passes at most, and as many again after vertices are put or let go.
     density : str or array_like of shape (k,), optional
         'curvature', 'curvature:0.01' (an error in input units), 'lfs', 'linear:z,4', of files 'attr:NAME'; or the wanted lengths of edges at the vertices, in proportion.
+    start : array_like of shape (k, 3), optional
+        Points at which vertices begin, as many as are wanted or more.
     features : float or 'off'
         Edges at which the surface turns by more than so many degrees are kept; borders are in any case.
     tolerance : float or 'off', optional
@@ -260,6 +263,9 @@ def remesh(
     has_sizes = density is not None and not isinstance(density, str)
     if n is not None and spacing is not None:
         raise ValueError("give either n or spacing")
+    begin = None if start is None else rows(start, "start", 3)
+    if n is None and spacing is None and begin is not None:
+        n = len(begin)
     if n is None and spacing is None and (density is None or has_sizes):
         raise ValueError("n or spacing is missing: how many vertices?")
     sizes = None if not has_sizes else _sizes(density)
@@ -303,7 +309,7 @@ def remesh(
         )
 
     native = _native(shape)
-    return run(lambda: _evenly.remesh(native, options, sizes, threads_of(threads), told(callback)), build)
+    return run(lambda: _evenly.remesh(native, options, sizes, begin, threads_of(threads), told(callback)), build)
 
 
 def sample(

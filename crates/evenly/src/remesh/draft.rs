@@ -18,6 +18,8 @@ pub(super) struct Vertex {
     pub is_on_crease: bool,
     /// Whether it is never taken away.
     pub is_pinned: bool,
+    /// Whether it stands where a given point is.
+    pub is_given: bool,
 }
 
 /// Vertices have so many neighbours at most.
@@ -36,11 +38,13 @@ pub(super) struct Draft<'a> {
     pub outgoing: Vec<u32>,
     /// For each half-edge whether it lies on a crease or a border.
     pub is_crease: Vec<bool>,
-    /// For each triangle that of the surface in which it lies; while only edges have been split.
-    hosts: Vec<u32>,
+    /// For each triangle that of the surface in which it lies, until edges between two of these are flipped.
+    pub hosts: Vec<u32>,
     pub n_live: usize,
     /// Vertices on creases that are to be taken away.
     pub n_loose: usize,
+    /// Whether what is given stays.
+    pub keeps_given: bool,
     /// By which vertices are told that have been seen in the round at hand.
     marks: Vec<u32>,
     round: u32,
@@ -63,6 +67,7 @@ impl<'a> Draft<'a> {
                     size: sizes[v],
                     is_on_crease: false,
                     is_pinned: false,
+                    is_given: false,
                 }
             })
             .collect();
@@ -72,6 +77,7 @@ impl<'a> Draft<'a> {
             sizes,
             n_live: outgoing.iter().filter(|&&h| h != BORDER).count(),
             n_loose: 0,
+            keeps_given: true,
             marks: vec![0; outgoing.len()],
             round: 0,
             vertices,
@@ -125,10 +131,14 @@ impl<'a> Draft<'a> {
         a.place.at.distance(b.place.at) * 2.0 / (a.size + b.size)
     }
 
-    /// Puts a new vertex on an edge, so far along it, and returns it. Only while nothing has been flipped.
+    /// Puts a new vertex on an edge, so far along it, and returns it. Only while triangles have hosts.
     pub fn split(&mut self, h: u32, share: f64) -> u32 {
         let [p, q] = [self.mesh.origin[h as usize], self.mesh.target(h)].map(|v| self.at(v));
-        let place = self.surface.nearest_on(self.hosts[h as usize / 3], p + share * (q - p));
+        self.split_at(h, self.surface.nearest_on(self.hosts[h as usize / 3], p + share * (q - p)))
+    }
+
+    /// The same, at a place of the edge.
+    pub fn split_at(&mut self, h: u32, place: Place) -> u32 {
         let is_on_crease = self.is_crease[h as usize];
         let m = self.add(place, is_on_crease);
         let t = self.mesh.twin[h as usize];
@@ -144,10 +154,36 @@ impl<'a> Draft<'a> {
         m
     }
 
+    /// Puts a new vertex into a triangle, and returns it. Only while triangles have hosts.
+    pub fn insert(&mut self, t: u32, place: Place) -> u32 {
+        let (m, first) = (self.add(place, false), 3 * t);
+        let [a, b, c] = self.mesh.triangle(t as usize);
+        // Of (a b c) what lies at the first edge stays, and (b c m) and (c a m) are new.
+        let others = [[b, c, m], [c, a, m]].map(|corners| self.push_triangle(corners, self.hosts[t as usize]));
+        for (edge, new) in [(first + 1, others[0]), (first + 2, others[1])] {
+            let across = self.mesh.twin[edge as usize];
+            (self.mesh.twin[new as usize], self.is_crease[new as usize]) = (across, self.is_crease[edge as usize]);
+            if across != BORDER {
+                self.mesh.twin[across as usize] = new;
+            }
+            self.is_crease[edge as usize] = false;
+        }
+        self.mesh.origin[first as usize + 2] = m;
+        self.join(first + 1, others[0] + 2);
+        self.join(first + 2, others[1] + 1);
+        self.join(others[0] + 1, others[1] + 2);
+        self.outgoing[m as usize] = first + 2;
+        [a, b, c].into_iter().zip([first, others[0], others[1]]).for_each(|(v, h)| {
+            self.outgoing[v as usize] = h;
+            self.start_at_border(v);
+        });
+        m
+    }
+
     fn add(&mut self, place: Place, is_on_crease: bool) -> u32 {
         let sizes = self.surface.half_edges.triangle(place.face as usize).map(|v| self.sizes[v as usize]);
         let (size, normal) = (place.mean(sizes), self.features.normal(&place));
-        self.vertices.push(Vertex { place, normal, size, is_on_crease, is_pinned: false });
+        self.vertices.push(Vertex { place, normal, size, is_on_crease, is_pinned: false, is_given: false });
         self.outgoing.push(BORDER);
         self.marks.push(0);
         self.n_live += 1;
@@ -203,10 +239,20 @@ impl<'a> Draft<'a> {
     }
 
     /// Lawson's flips from some half-edges on; shows the new edges.
-    pub fn legalize(&mut self, suspects: &mut Vec<u32>, mut show: impl FnMut(&Self, u32)) {
+    pub fn legalize(&mut self, suspects: &mut Vec<u32>, show: impl FnMut(&Self, u32)) {
+        self.flip_all(suspects, |_, _| true, show);
+    }
+
+    /// The same, of edges within triangles of the surface: hosts stay what they are.
+    pub fn legalize_within(&mut self, suspects: &mut Vec<u32>) {
+        let is_within = |draft: &Self, [h, t]: [u32; 2]| draft.hosts[h as usize / 3] == draft.hosts[t as usize / 3];
+        self.flip_all(suspects, is_within, |_, _| {});
+    }
+
+    fn flip_all(&mut self, suspects: &mut Vec<u32>, may_flip: impl Fn(&Self, [u32; 2]) -> bool, mut show: impl FnMut(&Self, u32)) {
         while let Some(h) = suspects.pop() {
             let t = self.mesh.twin[h as usize];
-            if t == BORDER || self.is_crease[h as usize] || !self.should_flip(h) {
+            if t == BORDER || self.is_crease[h as usize] || !may_flip(self, [h, t]) || !self.should_flip(h) {
                 continue;
             }
             self.flip(h);
@@ -309,7 +355,8 @@ impl<'a> Draft<'a> {
     fn can_collapse(&mut self, h: u32, v: u32, u: u32, least_turn: f64) -> bool {
         let vertex = &self.vertices[v as usize];
         // A crease is left only along it.
-        if vertex.is_pinned || vertex.is_on_crease && !self.is_crease[h as usize] {
+        let stays = vertex.is_pinned || vertex.is_given && self.keeps_given;
+        if stays || vertex.is_on_crease && !self.is_crease[h as usize] {
             return false;
         }
         let t = self.mesh.twin[h as usize];

@@ -40,6 +40,8 @@ pub(super) struct Start {
     pub fixed: Vec<bool>,
     /// The edges along creases and borders, each by its ends in order, sorted.
     pub bonds: Vec<[u32; 2]>,
+    /// How many stand where points were given.
+    pub n_given: usize,
 }
 
 /// A mesh on a surface that the sweep moves.
@@ -65,7 +67,7 @@ pub(super) struct LiveSurface<'a> {
 
 impl<'a> LiveSurface<'a> {
     pub fn new(surface: &'a Surface, features: &'a Features, sizes: &'a [f64], start: Start) -> Self {
-        let Start { half_edges, vertices, fixed, bonds } = start;
+        let Start { half_edges, vertices, fixed, bonds, .. } = start;
         let mut live = Self {
             surface,
             features,

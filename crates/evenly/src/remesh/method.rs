@@ -17,6 +17,8 @@ pub enum RemeshMethod {
     Lloyd(LloydParams),
     /// To the least ratio of each cell by itself. It knows no sizes.
     OptBeta(OptBetaParams),
+    /// They stay where the start has them: sample elimination, or given points.
+    Eliminate,
     /// Where springs push that are as long as the spacing.
     DistMesh(DistMeshParams),
 }
@@ -41,6 +43,7 @@ impl RemeshMethod {
             Self::WellSpaced(_) => "well-spaced",
             Self::Lloyd(_) => "lloyd",
             Self::OptBeta(_) => "opt-beta",
+            Self::Eliminate => "eliminate",
             Self::DistMesh(_) => "distmesh",
         }
     }
@@ -53,6 +56,7 @@ impl RemeshMethod {
             Self::WellSpaced(params) => params.validate(),
             Self::Lloyd(params) => params.validate(),
             Self::OptBeta(params) => params.validate(),
+            Self::Eliminate => Ok(()),
             Self::DistMesh(params) => params.validate(),
         }
     }

@@ -18,6 +18,7 @@ mod chains;
 mod draft;
 mod eliminate;
 mod flips;
+mod given;
 mod ground;
 mod live;
 mod method;
@@ -60,13 +61,24 @@ pub struct RemeshParams {
     /// How long edges are to be, in proportion, at each vertex of the surface; empty where they are to be alike.
     #[serde(skip)]
     pub sizes: Vec<f64>,
+    /// Points on the surface, or near it, at which vertices are to begin, at least as many as are wanted; empty for a start by elimination.
+    #[serde(skip)]
+    pub start: Vec<[f64; 3]>,
     /// The start and the order of visits depend on it.
     pub seed: u64,
 }
 
 impl Default for RemeshParams {
     fn default() -> Self {
-        Self { n_points: 1000, method: RemeshMethod::default(), features_deg: Some(40.0), tolerance: Some(0.5), sizes: Vec::new(), seed: 0 }
+        Self {
+            n_points: 1000,
+            method: RemeshMethod::default(),
+            features_deg: Some(40.0),
+            tolerance: Some(0.5),
+            sizes: Vec::new(),
+            start: Vec::new(),
+            seed: 0,
+        }
     }
 }
 
@@ -74,7 +86,8 @@ impl RemeshParams {
     /// Checks the parameters, as [`remesh`] does before it begins.
     ///
     /// # Errors
-    /// [`Error::InvalidParameter`] for a value outside its range, or sizes that are not positive, differ more than a millionfold, or are not as many as the surface has vertices.
+    /// [`Error::InvalidParameter`] for a value outside its range, sizes that are not positive, differ more than a millionfold, or are not as many as the surface has vertices, and
+    /// a start that is not finite, or of fewer points than are wanted.
     pub fn validate(&self, surface: &Surface) -> Result<(), Error> {
         let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
         if self.n_points < 4 || self.n_points > crate::MAX_POINTS {
@@ -99,6 +112,12 @@ impl RemeshParams {
                 format!("{size}, and {largest} elsewhere"),
                 "such that the largest is at most a million times the smallest",
             );
+        }
+        if !self.start.is_empty() && self.start.len() < self.n_points {
+            return invalid("start", format!("{} points", self.start.len()), "at least as many points as vertices are wanted, or none");
+        }
+        if let Some(p) = self.start.iter().find(|p| !p.iter().all(|x| x.is_finite())) {
+            return invalid("start", format!("a point ({}, {}, {})", p[0], p[1], p[2]), "finite");
         }
         self.method.validate()
     }
@@ -153,7 +172,7 @@ impl Vertex {
 /// Where the targets are not reached, the report says so, and the mesh is in the best state that was seen.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] as [`RemeshParams::validate`] has it, and for fewer points than the surface's shape and features need.
+/// [`Error::InvalidParameter`] as [`RemeshParams::validate`] has it, for fewer points than the surface's shape and features need, and for two points of the start in one place.
 ///
 /// # Example
 /// ```
@@ -177,8 +196,13 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
 
     // 1. Exactly so many vertices, with the surface's topology.
     run.enter(Phase::Triangulate);
-    let start = start(surface, &features, &sizes, params.n_points, params.seed)?;
+    let given: Vec<_> = params.start.iter().map(|&p| surface.frame.inward(p)).collect();
+    let start = start(surface, &features, &sizes, params.n_points, &given, params.seed)?;
     report.triangulations = 1;
+    if !given.is_empty() && start.n_given < params.n_points {
+        let n = params.n_points - start.n_given;
+        report.notes.push(format!("{n} vertices did not begin at given points: creases, borders and the surface's shape have their own"));
+    }
 
     // 2. They move until all is as it should be.
     let live = settle(LiveSurface::new(surface, &features, &sizes, start), params, run, &mut report)?;

@@ -82,7 +82,7 @@ pub fn sample_surface(
         }
         SurfaceSampling::Eliminate(n) => {
             let sizes = vec![1.0; surface.n_vertices()];
-            let start = start(surface, &features, &sizes, n, seed)?;
+            let start = start(surface, &features, &sizes, n, &[], seed)?;
             done("eliminate", start.vertices.iter().map(|vertex| vertex.shown(surface)).collect())
         }
         SurfaceSampling::PushPull(n_points) => {

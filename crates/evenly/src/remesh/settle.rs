@@ -34,11 +34,16 @@ const MOST_PASSES: usize = 1000;
 
 /// Moves vertices by the wanted method, and says in the report how that has ended.
 pub(super) fn settle<'a>(
-    live: LiveSurface<'a>,
+    mut live: LiveSurface<'a>,
     params: &RemeshParams,
     run: &mut RunContext,
     report: &mut Report,
 ) -> Result<LiveSurface<'a>, Error> {
+    if params.method == RemeshMethod::Eliminate {
+        live.legalize();
+        report.outcome = Outcome::Converged;
+        return Ok(live);
+    }
     let mut sweep = Sweep::new(live);
     find_places(&mut sweep, params, run, report)?;
     // Where the surface stands out, a vertex stays, and the others find their places around it.
@@ -98,6 +103,7 @@ fn find_places(sweep: &mut Sweep<LiveSurface>, params: &RemeshParams, run: &mut 
         RemeshMethod::WellSpaced(wanted) => push_and_pull(sweep, &wanted.targets(), params.seed, run, report)?,
         RemeshMethod::Lloyd(wanted) => relax(sweep, &wanted.rule(), wanted.iterations, params.seed, run, report),
         RemeshMethod::DistMesh(wanted) => relax(sweep, &wanted.rule(), wanted.iterations, params.seed, run, report),
+        RemeshMethod::Eliminate => {}
         RemeshMethod::OptBeta(wanted) => to_least_ratio(sweep, &wanted, params.seed, run, report)?,
     }
     Ok(())

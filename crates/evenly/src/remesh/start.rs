@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::chains::pin_chains;
 use super::draft::Draft;
 use super::eliminate::{eliminate, subdivide};
+use super::given::{n_kept, put_all};
 use super::live::{Start, Vertex};
 use crate::error::Error;
 use crate::surface::{Features, Surface};
@@ -14,11 +15,18 @@ pub(super) fn spacing(surface: &Surface, n_points: usize) -> f64 {
     (2.0 * surface.inner_area() / (3f64.sqrt() * n_points as f64)).sqrt()
 }
 
-/// Splits and collapses edges of the surface until exactly so many vertices are left.
+/// Splits and collapses edges of the surface until exactly so many vertices are left; of given points, if there are any.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] for fewer points than the features and the topology need.
-pub(super) fn start(surface: &Surface, features: &Features, sizes: &[f64], n_points: usize, seed: u64) -> Result<Start, Error> {
+/// [`Error::InvalidParameter`] for fewer points than the features and the topology need, and two given points in one place.
+pub(super) fn start(
+    surface: &Surface,
+    features: &Features,
+    sizes: &[f64],
+    n_points: usize,
+    given: &[DVec3],
+    seed: u64,
+) -> Result<Start, Error> {
     let spacing = spacing(surface, n_points);
     let mut draft = Draft::new(surface, features, sizes);
     let too_few = |least: usize| Error::InvalidParameter {
@@ -30,7 +38,15 @@ pub(super) fn start(surface: &Surface, features: &Features, sizes: &[f64], n_poi
     pin_chains(&mut draft, spacing, n_points).map_err(too_few)?;
     features.tips.iter().for_each(|&v| draft.pin(v));
     // 2. Vertices to choose from.
-    subdivide(&mut draft, spacing, n_points, seed);
+    if given.is_empty() {
+        subdivide(&mut draft, spacing, n_points, seed);
+    } else {
+        put_all(&mut draft, given, n_points)?;
+        // All others go first.
+        let n_kept = n_kept(&draft);
+        eliminate(&mut draft, n_kept, seed);
+        draft.keeps_given = false;
+    }
     // 3. As many as are wanted.
     let is_reached = eliminate(&mut draft, n_points, seed);
     if !is_reached {
@@ -64,7 +80,8 @@ fn finished(draft: &Draft) -> Start {
         .collect();
     bonds.sort_unstable();
     bonds.dedup();
-    Start { half_edges, vertices, fixed, bonds }
+    let n_given = order.iter().filter(|&&v| draft.vertices[v as usize].is_given).count();
+    Start { half_edges, vertices, fixed, bonds, n_given }
 }
 
 /// Where a place lies on Morton's curve through the box from -2 to 2.

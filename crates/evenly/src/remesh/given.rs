@@ -1,0 +1,94 @@
+//! Given points: each becomes a vertex of the draft, where it lies on the surface.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::draft::Draft;
+use crate::error::Error;
+use crate::surface::{Facets, Place};
+use crate::triangulation::{BORDER, next};
+
+/// What is so near to an edge, as a part of the triangle's height, lies on it.
+const ON_EDGE: f64 = 1e-8;
+
+/// Puts a vertex where each point lies, or at the nearest place of the surface. Vertices on creases are those of the creases, unless it takes more to have so many as are wanted.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] for two points in one place.
+pub(super) fn put_all(draft: &mut Draft, points: &[DVec3], n_wanted: usize) -> Result<(), Error> {
+    let surface = draft.surface;
+    let solid: Vec<u32> = (0..surface.n_triangles() as u32).filter(|&t| surface.normals[t as usize] != DVec3::ZERO).collect();
+    let facets = Facets::new(solid.iter().map(|&t| surface.corners(t as usize)).collect());
+    let host = |p: &DVec3| facets.nearest(*p).map_or(0, |(k, _)| solid[k]);
+    let hosts: Vec<u32> = points.par_iter().map(host).collect();
+    // A triangle of the draft in each of the surface: there the search begins.
+    let mut begin: BTreeMap<u32, u32> = draft.hosts.iter().copied().zip(0..).collect();
+    let mut points_at: BTreeMap<u32, usize> = BTreeMap::new();
+    for (k, (&p, &host)) in points.iter().zip(&hosts).enumerate() {
+        let place = surface.nearest_on(host, p);
+        let t = locate(draft, begin[&host], place.at);
+        begin.insert(host, t);
+        let v = put(draft, t, place);
+        if let Some(other) = points_at.insert(v, k) {
+            let value = format!("the points {other} and {k} in one place of the surface");
+            return Err(Error::InvalidParameter { name: "start", value, expected: "points in different places" });
+        }
+        draft.vertices[v as usize].is_given = !draft.is_loose(v);
+    }
+    let n_missing = n_wanted.saturating_sub(n_kept(draft));
+    for v in points_at.into_keys().filter(|&v| draft.is_loose(v)).take(n_missing).collect::<Vec<_>>() {
+        draft.pin(v);
+        draft.vertices[v as usize].is_given = true;
+    }
+    Ok(())
+}
+
+/// How many vertices are given, or stay in any case.
+pub(super) fn n_kept(draft: &Draft) -> usize {
+    draft.vertices.iter().filter(|vertex| vertex.is_pinned || vertex.is_given).count()
+}
+
+/// The triangle of the draft that holds a place, found by walking from another of the same host.
+fn locate(draft: &Draft, begin: u32, at: DVec3) -> u32 {
+    let host = draft.hosts[begin as usize];
+    let mut t = begin;
+    for _ in 0..draft.mesh.n_triangles() {
+        let is_outside = |&h: &u32| {
+            let twin = draft.mesh.twin[h as usize];
+            twin != BORDER && draft.hosts[twin as usize / 3] == host && side(draft, h, at) < 0.0
+        };
+        match (3 * t..3 * t + 3).find(is_outside) {
+            Some(h) => t = draft.mesh.twin[h as usize] / 3,
+            None => break,
+        }
+    }
+    t
+}
+
+/// Twice the area of the triangle that a half-edge and a place of its host make; below zero to its right.
+fn side(draft: &Draft, h: u32, at: DVec3) -> f64 {
+    let [from, to] = [draft.mesh.origin[h as usize], draft.mesh.target(h)].map(|v| draft.at(v));
+    (to - from).cross(at - from).dot(draft.surface.normals[draft.hosts[h as usize / 3] as usize])
+}
+
+/// Puts a vertex into a triangle, on its edge, or takes its corner. Then the triangles around are made Delaunay as far as they have the same host, lest searches take long.
+fn put(draft: &mut Draft, t: u32, place: Place) -> u32 {
+    // By the edges, the areas that make the place's weights.
+    let areas = [0, 1, 2].map(|k| side(draft, 3 * t + k, place.at));
+    let least = ON_EDGE * areas.iter().sum::<f64>();
+    let v = match areas.map(|area| area > least) {
+        [true, true, true] => draft.insert(t, place),
+        [false, true, true] => draft.split_at(3 * t, place),
+        [true, false, true] => draft.split_at(3 * t + 1, place),
+        [true, true, false] => draft.split_at(3 * t + 2, place),
+        // The weight of a corner is that of the edge across.
+        [_, false, false] => return draft.mesh.origin[3 * t as usize + 2],
+        [false, _, false] => return draft.mesh.origin[3 * t as usize],
+        [false, false, _] => return draft.mesh.origin[3 * t as usize + 1],
+    };
+    let mut suspects: Vec<u32> = draft.mesh.around(draft.outgoing[v as usize]).map(next).collect();
+    draft.legalize_within(&mut suspects);
+    v
+}
