@@ -27,6 +27,10 @@ fn shell() -> Shell {
     shell.write("torus.off", off(&torus(40, 16)));
     shell.write("cube.off", off(&cube(2)));
     shell.write("edge.off", off(&two_at_an_edge()));
+    shell.write(
+        "cloud.ply",
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 1 1\n",
+    );
     shell.write("flat.txt", "# x y\n1 2\n");
     shell
 }
@@ -85,16 +89,34 @@ fn points_are_sampled() {
 }
 
 #[test]
+fn the_spread_of_points_on_a_mesh_is_told() {
+    let shell = shell();
+    shell.ok("sample torus.off -n 600 -o p.ply");
+    shell.ok("sample torus.off -n 600 --method white -o w.csv");
+    let measures = |words: &str| json(&shell.ok(&format!("analyze {words} --json")));
+    let (even, white) = (measures("p.ply --reference torus.off --spectrum"), measures("w.csv --reference torus.off --spectrum"));
+    assert!(even["effective_nyquist"].as_f64() > Some(0.8) && white["effective_nyquist"].as_f64() < Some(0.3));
+    assert!(even["min_distance"].as_f64() > Some(0.85) && white["min_distance"].as_f64() < Some(0.3));
+    // Of a mesh it is that of its vertices.
+    shell.ok("remesh torus.off -n 600 -o m.off");
+    let mesh = measures("m.off --reference torus.off --spectrum --local");
+    assert!(mesh["effective_nyquist"].as_f64() > Some(0.7) && mesh["obtuse_triangles"] == 0);
+    shell.ok("analyze w.csv --reference torus.off --plot w.svg");
+    shell.ok("analyze m.off --spectrum --plot m.svg");
+    assert!(shell.read("w.svg").contains("Pair correlation") && shell.read("m.svg").contains("Pair correlation"));
+}
+
+#[test]
 fn given_points_are_a_start() {
     let shell = shell();
     for (ending, n) in [("csv", 321), ("txt", 300), ("ply", 300)] {
         shell.ok(&format!("sample torus.off -n {n} --method white -o p.{ending}"));
-        shell.ok(&format!("remesh torus.off --start p.{ending} --method eliminate -o m.off --force --report r.json"));
+        shell.ok(&format!("remesh torus.off --points p.{ending} --method eliminate -o m.off --force --report r.json"));
         let record = json(&shell.read("r.json"));
         assert_eq!(record["quality"]["n_vertices"], n, "{ending}");
     }
     // Of a mesh the vertices, and fewer than there are.
-    shell.ok("remesh torus.off --start m.off -n 250 -o n.off --report r.json --force");
+    shell.ok("remesh torus.off --points m.off -n 250 -o n.off --report r.json --force");
     assert_eq!(json(&shell.read("r.json"))["quality"]["n_vertices"], 250);
 }
 
@@ -111,9 +133,13 @@ fn bad_input_is_one_clear_error() {
         ("remesh torus.off -n 100 --density attr:heat -o m.ply", "attr"),
         ("remesh torus.off -n 100 --features 200deg -o m.ply", "below 180"),
         ("remesh torus.off -n 100 -o m.geojson", "flat"),
-        ("remesh torus.off -n 100 --start edge.off -o m.ply", "at least as many"),
-        ("remesh torus.off --start flat.txt -o m.ply", "flat.txt:2: 2 numbers"),
-        ("remesh - --start - -o m.ply", "stdin"),
+        ("remesh torus.off -n 100 --points edge.off -o m.ply", "at least as many"),
+        ("remesh torus.off --points flat.txt -o m.ply", "flat.txt:2: 2 numbers"),
+        ("remesh - --points - -o m.ply", "stdin"),
+        ("analyze cloud.ply", "--reference names the mesh"),
+        ("analyze cloud.ply --reference torus.off --spectrum", "too few"),
+        ("analyze cloud.ply --reference torus.off --certify 0.7", "triangles"),
+        ("analyze torus.off --local", "--local is for --spectrum and --plot"),
         ("sample torus.off --spacing=-1 -o p.csv", "positive"),
         ("analyze torus.off --certify 0.1", "0.5 or more"),
     ] {

@@ -155,13 +155,13 @@ fn a_mesh_of_given_points_has_these_vertices() {
     for (name, mesh, n) in all() {
         let surface = Surface::new(&mesh).unwrap();
         for (n, seed) in [(n, 1), (2 * n, 2)] {
-            let start = positions(&surface, SurfaceSampling::White(n), seed);
+            let points = positions(&surface, SurfaceSampling::White(n), seed);
             let method = RemeshMethod::Eliminate;
-            let params = RemeshParams { n_points: n, method, start, seed, features_deg: None, ..RemeshParams::default() };
+            let params = RemeshParams { n_points: n, method, points, seed, features_deg: None, ..RemeshParams::default() };
             let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
             let bits = |p: &[f64; 3]| p.map(f64::to_bits);
-            let given: HashSet<[u64; 3]> = params.start.iter().map(bits).collect();
-            let n_own = made.mesh.vertices.iter().filter(|p| params.start.iter().all(|q| distance(**p, *q) > 1e-12)).count();
+            let given: HashSet<[u64; 3]> = params.points.iter().map(bits).collect();
+            let n_own = made.mesh.vertices.iter().filter(|p| params.points.iter().all(|q| distance(**p, *q) > 1e-12)).count();
             let made = Surface::new(&made.mesh).unwrap();
             assert_eq!((made.n_vertices(), given.len()), (n, n), "{name}");
             assert_eq!(made.euler_characteristic(), surface.euler_characteristic(), "{name}");
@@ -178,29 +178,36 @@ fn given_points_are_a_start_as_good_as_another() {
     let surface = Surface::new(&torus(40, 20)).unwrap();
     let start = positions(&surface, SurfaceSampling::White(1500), 4);
     for n_points in [1200, 1500] {
-        let params = RemeshParams { n_points, start: start.clone(), ..RemeshParams::default() };
+        let params = RemeshParams { n_points, points: start.clone(), ..RemeshParams::default() };
         let (made, report) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         assert_eq!((report.outcome, made.mesh.vertices.len()), (Outcome::Converged, n_points));
         assert_eq!(surface_quality(&Surface::new(&made.mesh).unwrap()).obtuse_triangles, 0);
     }
+    // On a border the given points stay, whatever their gaps.
+    let square = Surface::new(&patch(1)).unwrap();
+    let grid: Vec<[f64; 3]> = (0..121).map(|k| [f64::from(k / 11) / 10.0, f64::from(k % 11) / 10.0, 0.0]).collect();
+    let params = RemeshParams { n_points: 121, method: RemeshMethod::Eliminate, points: grid, ..RemeshParams::default() };
+    let (made, _) = remesh(&square, &params, &mut RunContext::default()).unwrap();
+    assert!(made.mesh.vertices.iter().all(|p| params.points.iter().any(|q| distance(*p, *q) < 1e-12)));
+    assert!((surface_quality(&Surface::new(&made.mesh).unwrap()).min_angle_deg - 45.0).abs() < 1e-6);
     // A mesh's own vertices make it again, also with creases.
     for mesh in [torus(40, 20), cube(2)] {
         let surface = Surface::new(&mesh).unwrap();
         let (first, _) = remeshed(&surface, 900, 3);
         let params =
-            RemeshParams { n_points: 900, method: RemeshMethod::Eliminate, start: first.mesh.vertices.clone(), ..RemeshParams::default() };
+            RemeshParams { n_points: 900, method: RemeshMethod::Eliminate, points: first.mesh.vertices.clone(), ..RemeshParams::default() };
         let (again, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         for p in &again.mesh.vertices {
             assert!(first.mesh.vertices.iter().any(|q| distance(*p, *q) < 1e-9), "{p:?}");
         }
     }
     let refused = |start: Vec<[f64; 3]>| {
-        let params = RemeshParams { n_points: start.len().max(10), start, ..RemeshParams::default() };
+        let params = RemeshParams { n_points: start.len().max(10), points: start, ..RemeshParams::default() };
         remesh(&surface, &params, &mut RunContext::default()).unwrap_err().to_string()
     };
     assert!(refused(vec![[1.0, 0.0, 0.0]; 9]).contains("at least as many"));
     assert!(refused([vec![[f64::NAN; 3]], start.clone()].concat()).contains("finite"));
-    assert!(refused([vec![start[7]], start.clone()].concat()).contains("the points 0 and 8"));
+    assert!(refused([vec![start[7]], start.clone()].concat()).contains("points 0 and 8"));
 }
 
 #[test]
@@ -353,7 +360,7 @@ proptest! {
         vertices in prop::collection::vec(prop::array::uniform3(prop_oneof![-1.0..1.0f64, Just(0.0), Just(1.0), Just(1e-300), Just(1e300)]), 3..12),
         corners in prop::collection::vec(prop::array::uniform3(0..12usize), 1..20),
         n_points in 4..60usize,
-        start in prop_oneof![Just(Vec::new()), prop::collection::vec(prop::array::uniform3(-1.0..1.0f64), 60)],
+        points in prop_oneof![Just(Vec::new()), prop::collection::vec(prop::array::uniform3(-1.0..1.0f64), 60)],
     ) {
         let n = vertices.len();
         let mesh = TriangleMesh { vertices, triangles: corners.into_iter().map(|t| t.map(|v| v % n)).collect(), attributes: Vec::new() };
@@ -361,7 +368,7 @@ proptest! {
         if let Ok(surface) = Surface::repaired(&mesh) {
             let params = RemeshParams {
                 n_points,
-                start,
+                points,
                 method: RemeshMethod::PushPull(evenly::PushPullParams { max_passes: Some(20), ..evenly::PushPullParams::default() }),
                 ..RemeshParams::default()
             };

@@ -63,10 +63,22 @@ def test_sizes_features_and_methods():
 def test_given_points_are_a_start():
     shape = torus()
     points = evenly.sample(shape, 400, method="white")
-    mesh = evenly.remesh(shape, start=points, method="eliminate")
+    mesh = evenly.remesh(shape, points=points, method="eliminate")
     order = lambda rows: rows[np.lexsort(rows.T)]  # noqa: E731
     np.testing.assert_allclose(order(mesh.vertices), order(points.positions), atol=1e-12)
-    assert len(evenly.remesh(shape, 300, start=points.positions).vertices) == 300
+    assert len(evenly.remesh(shape, 300, points=points.positions).vertices) == 300
+
+
+def test_how_points_are_spread_is_told():
+    shape = torus()
+    even, white = (evenly.surface_spectrum(evenly.sample(shape, 1000, method=method), shape) for method in ("push-pull", "white"))
+    assert even.effective_nyquist > 0.8 > 0.2 > white.effective_nyquist
+    assert even.min_distance > 0.85 > 0.2 > white.min_distance and even.mean_distance > 0.9
+    assert len(even.power) == len(even.frequencies) and len(even.correlation) == len(even.distances)
+    mesh = evenly.remesh(shape, 1000, density="linear:x,3")
+    assert evenly.surface_spectrum(mesh.vertices, mesh, local=True).effective_nyquist > 0.6
+    with pytest.raises(ValueError, match="too few"):
+        evenly.surface_spectrum(mesh.vertices[:50], shape)
 
 
 def test_points_lie_on_the_surface():

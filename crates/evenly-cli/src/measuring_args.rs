@@ -10,10 +10,10 @@ use crate::shared_args::{DensityArgs, DrawArg, LongArgs, SpaceArgs};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
 pub struct Analyze {
-    /// Points as .txt, .csv or .npy; - is stdin. Of several sets the spectrum is the mean of theirs. Or a mesh, as .ply .obj .off .stl .gltf .glb
+    /// Points as .txt, .csv or .npy; - is stdin. Of several sets the spectrum is the mean of theirs. Or a mesh, as .ply .obj .off .stl .gltf .glb; or, with --reference, points on one, as .ply, .csv or .txt
     #[arg(required = true)]
     pub inputs: Vec<PathBuf>,
-    /// Of a mesh: the one that it stands for, for the distance to it
+    /// Of a mesh: the one that it stands for, for the distance to it. Of points in space: the mesh on which they lie
     #[arg(long, value_name = "MESH")]
     pub reference: Option<PathBuf>,
     /// Of a mesh: certify all angles by this ratio of the largest circumradius to the shortest edge, and list where they are not so [default: 0.7, of push-pull's 0.90 and 0.63]
@@ -23,13 +23,13 @@ pub struct Analyze {
     pub space: SpaceArgs,
     #[command(flatten)]
     pub density: DensityArgs,
-    /// The power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON
+    /// The power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON. On a mesh by ways along it (differential domain analysis)
     #[arg(long)]
     pub spectrum: bool,
     /// Take each distance in its place's own spacing, for one set whose density varies (differential domain analysis)
     #[arg(long)]
     pub local: bool,
-    /// Draw a figure, as .svg, .png or .pdf
+    /// Draw a figure, as .svg, .png or .pdf. Of a mesh it is shaded; of points on one, or with --spectrum, the figure shows the curves
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// What the figure shows
@@ -102,7 +102,7 @@ pub struct Reproduce {
     /// The folder for PAPER.html and PAPER.json, with --quick PAPER-quick.html and PAPER-quick.json
     #[arg(short, long, value_name = "DIR", default_value = ".")]
     pub output: PathBuf,
-    /// Of push-pull: models for Table 2, of those that the paper has: fertility.off,homer.obj,bunny.off
+    /// Of push-pull and opt-beta: models for their figures on surfaces, of those that the papers have: fertility.off,homer.obj,bunny.off,cow.off
     #[arg(long, value_name = "FILES", value_delimiter = ',')]
     pub models: Vec<PathBuf>,
     /// Fewer points and sets: under two minutes

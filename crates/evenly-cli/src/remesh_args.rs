@@ -43,7 +43,7 @@ pub struct Remesh {
 
 /// What a new mesh is to be.
 #[derive(Args)]
-#[command(group = ArgGroup::new("size").required(true).multiple(true).args(["n_points", "spacing", "density", "start"]))]
+#[command(group = ArgGroup::new("size").required(true).multiple(true).args(["n_points", "spacing", "density", "points"]))]
 pub struct RemeshWishes {
     /// How many vertices, exactly
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "spacing")]
@@ -51,9 +51,9 @@ pub struct RemeshWishes {
     /// The length of edges, in the input's units, instead; with a density their mean
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
-    /// Points at which vertices begin, as many as are wanted or more: .csv or .txt with x y z, or the vertices of a mesh; -n is their number unless given
+    /// Points at which vertices begin, as many as are wanted or more: .csv or .txt with x y z, .ply, or the vertices of a mesh; -n is their number unless given
     #[arg(long, value_name = "FILE")]
-    pub start: Option<PathBuf>,
+    pub points: Option<PathBuf>,
     /// The same seed gives the same mesh
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -75,7 +75,7 @@ pub struct RemeshWishes {
     /// Of well-spaced and opt-beta: the wanted ratio of the largest circumradius to the shortest edge
     #[arg(long, value_name = "B", allow_negative_numbers = true, help_heading = "Method")]
     pub beta: Option<f64>,
-    /// Passes at most, and as many again after vertices are put or let go [default: push-pull and well-spaced 1000, lloyd 100, the others 200]
+    /// Passes at most, and as many again after vertices are put or let go [default: push-pull and well-spaced 1000, lloyd 100, opt-beta and distmesh 200]
     #[arg(short, long, value_name = "N", value_parser = parse_count, help_heading = "Method")]
     pub iterations: Option<usize>,
     /// Edges of other lengths here and there: curvature[:error], lfs, linear:axis,ratio, attr:NAME, or a file with a number for each vertex
@@ -109,7 +109,7 @@ pub enum RemeshRule {
     OptBeta,
     /// Lloyd's method: to the centroids of the Voronoi cells
     Lloyd,
-    /// They stay at the start: sample elimination, or the points of --start
+    /// They stay at the start: sample elimination, or --points
     Eliminate,
     /// Springs between neighbours (Persson and Strang)
     #[value(name = "distmesh")]

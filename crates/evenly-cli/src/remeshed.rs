@@ -1,5 +1,6 @@
 //! [`remeshed`]: a surface's new mesh as it is wished for, whoever wishes it.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
@@ -8,7 +9,7 @@ use evenly::{
     RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, WellSpacedParams, certificate,
     expected_vertices, remesh, self_intersections, surface_distance, surface_quality, surface_sizes,
 };
-use evenly_io::{read_cloud, read_numbers};
+use evenly_io::{read_numbers, read_triangles_or_points};
 use serde_json::Value;
 
 use crate::measured::told;
@@ -23,7 +24,7 @@ const FLAGS: [(&str, &str); 11] = [
     ("features_deg", "features"),
     ("error", "density curvature"),
     ("sizes", "density"),
-    ("start", "start"),
+    ("points", "points"),
     ("linear", "density linear"),
     ("attr", "density attr"),
     ("min_distance", "min-distance"),
@@ -66,7 +67,7 @@ pub fn surface_of(mesh: &TriangleMesh, name: &Path, is_repaired: bool) -> anyhow
     })
 }
 
-/// Makes a new mesh, from a start if there is one; of wishes in words see [`wishes`].
+/// Makes a new mesh, from given points if there are any; of wishes in words see [`wishes`].
 ///
 /// # Errors
 /// As [`remesh`], with the names of flags; `name` is the mesh's.
@@ -75,12 +76,16 @@ pub fn remeshed(
     name: &Path,
     wishes: &RemeshWishes,
     sizing: Option<&SurfaceSizing>,
-    start: Vec<[f64; 3]>,
+    points: Vec<[f64; 3]>,
     run: &mut RunContext,
 ) -> anyhow::Result<Made> {
     let told = |e| told(e, name, &FLAGS);
-    let of_start = (!start.is_empty()).then_some(start.len());
-    let mut n_points = number_of(surface, wishes.n_points, wishes.spacing)?.or(of_start);
+    let (points, n_equal) = distinct(points);
+    let of_points = (!points.is_empty()).then_some(points.len());
+    if let Some(n) = of_points.filter(|&n| n < 4 && wishes.n_points.is_none()) {
+        bail!("--points has {n} in different places; it must have 4 or more");
+    }
+    let mut n_points = number_of(surface, wishes.n_points, wishes.spacing)?.or(of_points);
     let mut sizes = Vec::new();
     if let Some(sizing) = sizing {
         sizes = surface_sizes(surface, sizing, n_points).map_err(told)?;
@@ -95,8 +100,11 @@ pub fn remeshed(
     }
     let default = if sizes.is_empty() { RemeshParams::default().tolerance } else { Some(SIZED_TOLERANCE) };
     let tolerance = wishes.tolerance.map_or(default, |target| target.0.map(|length| length / spacing));
-    let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, start, seed: wishes.seed };
+    let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, points, seed: wishes.seed };
     let (remeshed, mut report) = remesh(surface, &params, run).map_err(told)?;
+    if n_equal > 0 {
+        report.notes.push(format!("points in the place of an earlier one, left out: {n_equal}"));
+    }
     // What has no area, or touches itself, is mended for the measures alone.
     let made = Surface::repaired(&remeshed.mesh)?;
     report.notes.extend(made.notes().iter().map(|note| format!("in the new mesh, as measured: {note}")));
@@ -146,7 +154,7 @@ fn targets(method: &RemeshMethod) -> Option<f64> {
 
 /// That what belongs to one method is not given for another.
 fn refuse_others_flags(wishes: &RemeshWishes) -> anyhow::Result<()> {
-    let RemeshWishes { method, preset, min_distance, coverage_radius, capacity_tolerance, beta, density, .. } = wishes;
+    let RemeshWishes { method, preset, min_distance, coverage_radius, capacity_tolerance, beta, iterations, tolerance, .. } = wishes;
     let has_beta = matches!(method, RemeshRule::WellSpaced | RemeshRule::OptBeta);
     let flags = [
         ("preset", preset.is_some(), "push-pull", *method == RemeshRule::PushPull),
@@ -154,7 +162,8 @@ fn refuse_others_flags(wishes: &RemeshWishes) -> anyhow::Result<()> {
         ("coverage-radius", coverage_radius.is_some(), "push-pull", *method == RemeshRule::PushPull),
         ("capacity-tolerance", capacity_tolerance.is_some(), "push-pull", *method == RemeshRule::PushPull),
         ("beta", beta.is_some(), "well-spaced and opt-beta", has_beta),
-        ("density", density.is_some(), "all methods but opt-beta", *method != RemeshRule::OptBeta),
+        ("iterations", iterations.is_some(), "all methods but eliminate", *method != RemeshRule::Eliminate),
+        ("tolerance", tolerance.is_some(), "all methods but eliminate", *method != RemeshRule::Eliminate),
     ];
     match flags.iter().find(|(_, is_given, _, is_taken)| *is_given && !is_taken) {
         Some((name, _, takers, _)) => bail!("--{name} is for --method {takers}"),
@@ -210,12 +219,22 @@ pub(crate) fn number_of(surface: &Surface, n_points: Option<usize>, spacing: Opt
     Ok(n_points.or(spacing.map(of_spacing)))
 }
 
-/// The points that `--start` names, if it does.
+/// Points without those that share a place with an earlier one, and how many these are.
+fn distinct(mut points: Vec<[f64; 3]>) -> (Vec<[f64; 3]>, usize) {
+    let n = points.len();
+    let mut seen = HashSet::new();
+    points.retain(|p| seen.insert(p.map(|x| (x + 0.0).to_bits())));
+    let n_equal = n - points.len();
+    (points, n_equal)
+}
+
+/// The points that `--points` names, if it does.
 ///
 /// # Errors
 /// Files that cannot be read.
-pub fn start(wishes: &RemeshWishes) -> anyhow::Result<Vec<[f64; 3]>> {
-    Ok(wishes.start.as_deref().map(read_cloud).transpose()?.unwrap_or_default())
+pub fn points(wishes: &RemeshWishes) -> anyhow::Result<Vec<[f64; 3]>> {
+    let read = wishes.points.as_deref().map(read_triangles_or_points).transpose()?;
+    Ok(read.map_or_else(Vec::new, |read| read.mesh.vertices))
 }
 
 /// What `--density` says, if anything.

@@ -3,6 +3,7 @@
 mod filtering;
 mod html;
 mod lab;
+mod models;
 mod opt_beta;
 mod part;
 mod procrustes;

@@ -33,4 +33,4 @@ pub use photograph::{Photograph, Tone, luma};
 pub use render::rendered;
 pub use scraps::Scraps;
 pub use shapes::{read_lines, read_polygon};
-pub use surfaces::{TrianglesRead, read_cloud, read_triangles, triangles_svg, write_triangles, write_triangles_figure};
+pub use surfaces::{TrianglesRead, read_triangles, read_triangles_or_points, triangles_svg, write_triangles, write_triangles_figure};

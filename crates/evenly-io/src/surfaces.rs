@@ -55,18 +55,32 @@ pub fn read_triangles(path: &Path) -> Result<TrianglesRead, Error> {
     parse(kind, &name, &bytes, folder_of(path))
 }
 
-/// Reads points in space: the vertices of a mesh, or of `.ply` without faces, or the first three numbers of each line of text.
+/// Reads triangles, or points in space where there are no triangles: `.ply` without faces, and the first three numbers of each line of text.
 ///
 /// # Errors
-/// [`Error::Content`] with the file's name, and the line or the number of what is wrong with it.
-pub fn read_cloud(path: &Path) -> Result<Vec<[f64; 3]>, Error> {
+/// As [`read_triangles`].
+pub fn read_triangles_or_points(path: &Path) -> Result<TrianglesRead, Error> {
     let (name, bytes) = read_bytes(path)?;
-    let points = match kind_of(path, &bytes) {
-        Some(Kind::Ply) => ply::read_vertices_of(&name, &bytes)?,
-        Some(kind) => parse(kind, &name, &bytes, folder_of(path))?.mesh.vertices,
-        None => text::read_starts(&name, &bytes)?,
+    let read = match kind_of(path, &bytes) {
+        Some(Kind::Ply) => ply::read(&name, &bytes, true)?,
+        Some(kind) => parse(kind, &name, &bytes, folder_of(path))?,
+        None if !holds_text(path) => {
+            let choices = [".csv", ".txt"].into_iter().map(str::to_owned).chain(ENDINGS.iter().map(|(name, _)| format!(".{name}")));
+            let choices = choices.collect::<Vec<_>>().join(" ");
+            return Err(Error::Format { name, problem: "no format of points in space", choices });
+        }
+        None => {
+            let mesh = TriangleMesh { vertices: text::read_xyz(&name, &bytes)?, ..TriangleMesh::default() };
+            TrianglesRead { mesh, notes: Vec::new() }
+        }
     };
-    if points.is_empty() { Err(Error::content(name, "there are no points in it")) } else { Ok(points) }
+    if read.mesh.vertices.is_empty() { Err(Error::content(name, "there are no points in it")) } else { Ok(read) }
+}
+
+/// Whether a file's ending is one of text, or none.
+fn holds_text(path: &Path) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    ["", "csv", "txt", "xyz"].iter().any(|known| ending.eq_ignore_ascii_case(known))
 }
 
 /// The format that a file's ending tells, or its first bytes.
@@ -99,7 +113,7 @@ fn evident(bytes: &[u8]) -> Option<Kind> {
 fn parse(kind: Kind, name: &str, bytes: &[u8], folder: &Path) -> Result<TrianglesRead, Error> {
     match kind {
         Kind::Obj => obj::read(name, bytes),
-        Kind::Ply => ply::read(name, bytes),
+        Kind::Ply => ply::read(name, bytes, false),
         Kind::Stl => stl::read(name, bytes),
         Kind::Off => off::read(name, bytes),
         Kind::Gltf => gltf::read(name, bytes, folder),

@@ -79,7 +79,7 @@ pub(crate) fn read_rows<const N: usize>(name: &str, bytes: &[u8]) -> Result<Vec<
 }
 
 /// Reads the first three numbers of each line, after a first line of names if there is one.
-pub(crate) fn read_starts(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Error> {
+pub(crate) fn read_xyz(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Error> {
     let text = std::str::from_utf8(bytes).map_err(|_| Error::content(name, "this is neither text nor a mesh"))?;
     let lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
     let mut rows = Vec::new();

@@ -33,6 +33,7 @@ fn _evenly(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(meshes::mesh_figure, module)?)?;
     module.add_function(wrap_pyfunction!(surfaces::remesh, module)?)?;
     module.add_function(wrap_pyfunction!(surfaces::sample, module)?)?;
+    module.add_function(wrap_pyfunction!(surfaces::surface_spectrum, module)?)?;
     module.add_function(wrap_pyfunction!(surfaces::write_surface, module)?)?;
     module.add_function(wrap_pyfunction!(surfaces::surface_figure, module)?)?;
     module.add_function(wrap_pyfunction!(stipples::stipple, module)?)?;

@@ -1,6 +1,6 @@
 //! Points: made, made better, and measured.
 
-use evenly::PointSet;
+use evenly::{PointSet, RadialSpectrum};
 use evenly_cli::wishes::{Made, Wishes};
 use evenly_io::{Draw, Subject};
 use numpy::PyUntypedArrayMethods as _;
@@ -92,18 +92,16 @@ pub fn radial_spectrum(py: Python, sets: Vec<Rows>, space: SpaceArg, threads: Op
     let sets = all(&sets, space)?;
     run(py, Terms { threads, callback: None }, move |_, _| {
         let radial = evenly::radial_spectrum(&sets)?;
-        answer(move |py| {
-            let whole = (
-                numbers(py, radial.frequencies),
-                numbers(py, radial.radial_power),
-                numbers(py, radial.distances),
-                numbers(py, radial.pair_correlation),
-                radial.effective_nyquist,
-                radial.oscillation,
-            );
-            Ok(whole.into_pyobject(py)?.into_any().unbind())
-        })
+        answer(move |py| Ok(radial_arrays(py, radial).into_pyobject(py)?.into_any().unbind()))
     })
+}
+
+/// Frequencies and power, distances and correlation, the effective Nyquist frequency and the oscillation.
+pub fn radial_arrays(py: Python, radial: RadialSpectrum) -> (Py<PyAny>, Py<PyAny>, Py<PyAny>, Py<PyAny>, f64, f64) {
+    let RadialSpectrum { effective_nyquist, oscillation, .. } = radial;
+    let [frequencies, power] = [radial.frequencies, radial.radial_power].map(|values| numbers(py, values));
+    let [distances, correlation] = [radial.distances, radial.pair_correlation].map(|values| numbers(py, values));
+    (frequencies, power, distances, correlation, effective_nyquist, oscillation)
 }
 
 fn all(sets: &[Rows], space: SpaceArg) -> PyResult<Vec<PointSet>> {

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use crate::answer::{answer, json, value_error};
 use crate::arrays::{Integers, Rows, array, indices, numbers, rows};
 use crate::job::{Terms, run};
+use crate::points::radial_arrays;
 
 /// A mesh: vertices and triangles, or a file.
 #[derive(FromPyObject)]
@@ -59,12 +60,12 @@ pub fn remesh(
     shape: Shape,
     words: Vec<String>,
     sizes: Option<Vec<f64>>,
-    start: Option<Rows>,
+    points: Option<Rows>,
     threads: Option<usize>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let (mesh, name, mut notes) = shape.mesh(py)?;
-    let start = start.map(|start| rows(&start)).transpose()?;
+    let points = points.map(|points| rows(&points)).transpose()?;
     run(py, Terms { threads, callback }, move |context, _| {
         let wishes = remeshed::wishes(&words)?;
         let surface = surface(&mesh, &name, wishes.repair, &mut notes)?;
@@ -72,11 +73,11 @@ pub fn remesh(
             Some(sizes) => Some(SurfaceSizing::Given(sizes)),
             None => remeshed::sizing(&wishes)?,
         };
-        let start = match start {
-            Some(start) => start,
-            None => remeshed::start(&wishes)?,
+        let points = match points {
+            Some(points) => points,
+            None => remeshed::points(&wishes)?,
         };
-        let made = remeshed(&surface, &name, &wishes, sizing.as_ref(), start, context)?;
+        let made = remeshed(&surface, &name, &wishes, sizing.as_ref(), points, context)?;
         notes.extend(made.report.notes.iter().cloned());
         let said = json(&serde_json::json!({
             "quality": made.quality,
@@ -108,6 +109,27 @@ pub fn sample(py: Python, shape: Shape, words: Vec<String>, threads: Option<usiz
         let has_missed = report.outcome == Outcome::IterationLimit;
         let said = json(&serde_json::json!({ "run": report, "notes": notes, "has_missed": has_missed }))?;
         answer(move |py| Ok((place_arrays(py, &places)?, said).into_pyobject(py)?.into_any().unbind()))
+    })
+}
+
+/// The smallest and the mean distance of points on a surface, and the curves of their distances.
+#[pyfunction]
+pub fn surface_spectrum(
+    py: Python,
+    shape: Shape,
+    points: Rows,
+    is_local: bool,
+    is_repaired: bool,
+    threads: Option<usize>,
+) -> PyResult<Py<PyAny>> {
+    let (mesh, name, mut notes) = shape.mesh(py)?;
+    let points: Vec<[f64; 3]> = rows(&points)?;
+    run(py, Terms { threads, callback: None }, move |_, _| {
+        let surface = surface(&mesh, &name, is_repaired, &mut notes)?;
+        let measures = evenly::measure_on_surface(&surface, &points)?;
+        let radial = evenly::surface_spectrum(&surface, &points, is_local)?;
+        let distances = (measures.min_distance, measures.mean_distance);
+        answer(move |py| Ok((distances, radial_arrays(py, radial)).into_pyobject(py)?.into_any().unbind()))
     })
 }
 

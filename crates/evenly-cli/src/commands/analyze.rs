@@ -15,11 +15,11 @@ use crate::measuring_args::Analyze;
 use crate::{input, record, session, surface_measures};
 
 pub fn run(args: &Analyze) -> anyhow::Result<u8> {
-    if args.inputs.iter().any(|path| surface_measures::is_mesh(path)) {
+    if args.reference.is_some() || args.inputs.iter().any(|path| surface_measures::is_in_space(path)) {
         return surface_measures::analyze(args);
     }
-    if args.reference.is_some() || args.certify.is_some() {
-        bail!("--reference and --certify are for a mesh, as .ply .obj .off .stl .gltf or .glb");
+    if args.certify.is_some() {
+        bail!("--certify is for a mesh, as .ply .obj .off .stl .gltf or .glb");
     }
     let space = args.space.space()?;
     let plot = args.plot.as_ref().map(|path| Target::figure(path, args.measured.force)).transpose()?;

@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::remesh_args::Remesh;
-use crate::remeshed::{Made, remeshed, sizing, start, surface_of, with_places};
+use crate::remeshed::{Made, points, remeshed, sizing, surface_of, with_places};
 use crate::talk::say;
 use crate::{input, interrupt, record, session};
 
@@ -22,19 +22,19 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let targets = Targets::new(args)?;
     let wishes = &args.wishes;
     let density: Option<PathBuf> = wishes.density_path().map(Into::into);
-    input::require_one_stdin([Some(&args.input), density.as_ref(), wishes.start.as_ref()].into_iter().flatten())?;
+    input::require_one_stdin([Some(&args.input), density.as_ref(), wishes.points.as_ref()].into_iter().flatten())?;
     let pool = session::pool(args.run.threads)?;
     let read = read_triangles(&args.input)?;
     let surface = surface_of(&read.mesh, &args.input, wishes.repair)?;
     let mut notes: Vec<String> = read.notes.iter().chain(surface.notes()).cloned().collect();
 
-    let (sizing, start) = (sizing(wishes)?, start(wishes)?);
+    let (sizing, points) = (sizing(wishes)?, points(wishes)?);
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
-        remeshed(&surface, &args.input, wishes, sizing.as_ref(), start, &mut context)
+        remeshed(&surface, &args.input, wishes, sizing.as_ref(), points, &mut context)
     });
     bar.finish_and_clear();
     let Made { remeshed, quality, distance, self_intersections, breaches, report, parameters } = made?;

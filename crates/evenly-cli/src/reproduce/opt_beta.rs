@@ -29,7 +29,9 @@ pub const STUDY: Study = Study {
         ("Figure 11", figure_11),
         ("Table 1", table_1),
         ("Table 2", filtering::table_2),
+        ("Figure 12", surfaces::figure_12),
         ("Figure 14", surfaces::figure_14),
+        ("Figure 15", surfaces::figure_15),
     ],
 };
 
@@ -81,7 +83,7 @@ fn tiling(points: &[[f64; 2]], [width, height]: [f64; 2]) -> anyhow::Result<Poin
 }
 
 /// How often values fall in each of the bins between `low` and `high`, as a share of all values.
-fn spread(name: &str, values: &[f64], [low, high]: [f64; 2], n_bins: usize) -> Curve {
+pub(super) fn spread(name: &str, values: &[f64], [low, high]: [f64; 2], n_bins: usize) -> Curve {
     let width = (high - low) / n_bins as f64;
     let mut counts = vec![0.0; n_bins];
     for value in values {

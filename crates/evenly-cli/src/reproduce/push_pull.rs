@@ -4,10 +4,10 @@ use evenly::{CvtParams, LloydParams, ProcrustesParams, PushPullParams, PushPullP
 use evenly_io::{Axis, Curve, Draw, picture};
 
 use super::lab::{Lab, Profile, Recipe};
+use super::models;
 use super::part::Part;
 use super::recipes::{farthest, farthest_of_paper};
 use super::study::Study;
-use super::surfaces;
 use crate::method::Method;
 
 pub const STUDY: Study = Study {
@@ -17,11 +17,12 @@ pub const STUDY: Study = Study {
         Push-Pull Algorithm for Blue-Noise Sampling, IEEE Transactions on Visualization and Computer Graphics 23(12), 2017.",
     parts: &[
         ("Table 1", table_1),
+        ("Figure 3", models::figure_3),
         ("Figure 4a", figure_4a),
         ("Figure 4b", figure_4b),
         ("Figure 4c", figure_4c),
         ("Figure 5", figure_5),
-        ("Table 2", surfaces::table_2),
+        ("Table 2", models::table_2),
     ],
 };
 

@@ -1,139 +1,104 @@
-//! What the papers show on surfaces: meshes of models that are given, and of a sphere.
+//! What Opt-beta's paper shows on surfaces: a sphere, of one size and of many, and a model; and what serves the other paper's, too.
 
 use std::f64::consts::{PI, TAU};
-use std::path::Path;
+use std::path::PathBuf;
 
-use anyhow::Context as _;
 use evenly::{
     LloydParams, OptBetaParams, Outcome, RemeshMethod, RemeshParams, Remeshed, RunContext, Surface, SurfaceSizing, TriangleMesh,
-    WellSpacedParams, remesh, surface_distance, surface_quality, surface_sizes,
+    WellSpacedParams, expected_vertices, remesh, surface_quality, surface_sizes,
 };
-use evenly_io::{read_triangles, triangles_svg};
+use evenly_io::{Axis, read_triangles, triangles_svg};
 
 use super::lab::{Interrupted, Lab};
-use super::part::{Part, Table};
+use super::opt_beta::spread;
+use super::part::Part;
 use crate::remeshed::surface_of;
 
-/// A model of the paper's Table 2, and what is printed of it.
-struct Model {
-    name: &'static str,
-    n_points: usize,
-    is_adaptive: bool,
-    printed: [(&'static str, [f64; 10]); 6],
-}
+pub const PUSH_PULL: &str = "Push-Pull {0.90, 0.63}";
 
-const COLUMNS: [&str; 10] =
-    ["Q_min", "Q_avg", "theta_min", "mean theta_min", "theta_max", "< 30, %", "> 90, %", "V567, %", "d_RMS, 1e-3", "d_H, 1e-2"];
-
-const MODELS: [Model; 3] = [
-    Model {
-        name: "fertility",
-        n_points: 8500,
-        is_adaptive: false,
-        printed: [
-            ("MPS", [0.50, 0.81, 30.26, 45.26, 116.0, 0.0, 15.1, 96.4, 0.48, 0.41]),
-            ("FPO", [0.52, 0.86, 32.8, 50.8, 113.6, 0.0, 6.16, 99.5, 0.98, 0.33]),
-            ("CapCVT", [0.52, 0.88, 30.02, 51.3, 113.5, 0.0, 2.98, 99.8, 0.42, 0.28]),
-            ("CVT without obtuse angles", [0.77, 0.94, 40.4, 54.8, 83.4, 0.0, 0.0, 100.0, 0.98, 0.34]),
-            ("disk tuning", [0.64, 0.82, 30.1, 45.7, 90.0, 0.0, 0.0, 97.8, 0.55, 0.37]),
-            (PUSH_PULL, [0.74, 0.87, 46.3, 51.1, 87.5, 0.0, 0.0, 100.0, 0.29, 0.31]),
-        ],
-    },
-    Model {
-        name: "homer",
-        n_points: 7500,
-        is_adaptive: true,
-        printed: [
-            ("MPS", [0.56, 0.82, 30.1, 46.4, 105.8, 0.0, 10.8, 99.8, 0.61, 0.28]),
-            ("FPO", [0.49, 0.85, 31.0, 49.6, 117.5, 0.0, 7.99, 99.2, 0.45, 0.30]),
-            ("CapCVT", [0.37, 0.83, 21.3, 46.2, 131.1, 0.98, 10.66, 95.8, 0.42, 0.20]),
-            ("CVT without obtuse angles", [0.69, 0.94, 33.7, 54.5, 85.4, 0.0, 0.0, 100.0, 0.36, 0.17]),
-            ("disk tuning", [0.51, 0.82, 21.3, 45.0, 90.0, 1.64, 0.01, 97.3, 1.21, 0.57]),
-            (PUSH_PULL, [0.68, 0.90, 34.4, 51.8, 89.5, 0.0, 0.0, 100.0, 0.40, 0.23]),
-        ],
-    },
-    Model {
-        name: "bunny",
-        n_points: 8000,
-        is_adaptive: true,
-        printed: [
-            ("MPS", [0.62, 0.83, 32.0, 47.4, 97.9, 0.0, 4.89, 99.8, 0.77, 0.46]),
-            ("FPO", [0.50, 0.84, 30.0, 48.6, 116.3, 0.0, 9.92, 98.0, 0.81, 0.42]),
-            ("CapCVT", [0.39, 0.84, 15.6, 47.3, 125.1, 1.04, 8.46, 98.7, 0.71, 0.24]),
-            ("CVT without obtuse angles", [0.72, 0.94, 36.3, 54.4, 89.4, 0.0, 0.0, 100.0, 0.94, 0.35]),
-            ("disk tuning", [0.50, 0.82, 19.89, 45.2, 90.0, 0.88, 0.0, 97.8, 1.55, 0.52]),
-            (PUSH_PULL, [0.71, 0.87, 37.1, 51.1, 89.5, 0.0, 0.0, 99.8, 0.44, 0.52]),
-        ],
-    },
-];
-
-const PUSH_PULL: &str = "Push-Pull {0.90, 0.63}";
-const CVT: &str = "CVT (Lloyd, 100 iterations)";
-
-pub fn table_2(lab: &Lab) -> anyhow::Result<Part> {
-    let mut part =
-        Part::new("Quality of meshes on surfaces, and their distance to the input relative to its diagonal; Homer and Bunny by curvature.");
-    for model in &MODELS {
-        let path = lab
-            .models
-            .iter()
-            .find(|path| path.file_stem().is_some_and(|stem| stem.to_string_lossy().to_lowercase().starts_with(model.name)));
-        let ours = path.map(|path| measured(lab, model, path)).transpose()?;
-        let table = part.table(&COLUMNS);
-        for (name, printed) in &model.printed {
-            let numbers = ours.iter().flatten().find(|(own, _, _)| own == name).map_or(&[][..], |(_, numbers, _)| numbers);
-            table.row(format!("{}: {name}", model.name), numbers, printed);
-        }
-        others(table, model, ours.iter().flatten());
-        for (name, _, svg) in ours.into_iter().flatten().filter(|(name, _, _)| *name == PUSH_PULL) {
-            part.figure(format!("{}, {} vertices: {name}", model.name, model.n_points), svg);
-        }
-    }
-    if lab.models.is_empty() {
-        part.remark("Printed numbers alone: the models are not evenly's to hand out. --models fertility.off,homer.obj,bunny.off puts ours beside them.");
-    }
-    part.remark(
-        "Models of one name differ in scale, parts and triangles from copy to copy, which tells in the distances. The paper's sizes \
-         by local feature size and ours by curvature are not the same either.",
+pub fn figure_12(lab: &Lab) -> anyhow::Result<Part> {
+    let mut part = Part::new(
+        "Opt-beta on a sphere of radius 1 with sizes that are linear in z: 21 times as long at one end as at the other, as in the paper from 0.21 to 0.01.",
     );
-    part.remark("MPS with a mesh, FPO, CapCVT, CVT with a penalty on obtuse angles and disk tuning are not among evenly's remeshers: the printed rows alone. Moai and Kitten were not at hand.");
+    let surface = Surface::new(&sphere(64))?;
+    let sizing = SurfaceSizing::Linear { axis: 2, ratio: 21.0 };
+    let sizes = surface_sizes(&surface, &sizing, Some(1000))?;
+    let finest = sizes.iter().copied().fold(f64::INFINITY, f64::min);
+    let lengths: Vec<f64> = sizes.iter().map(|size| lab.pick(0.02, 0.01) * size / finest).collect();
+    let n_points = expected_vertices(&surface, &lengths).round() as usize;
+    sized(lab, &mut part, &surface, &lengths, n_points)?;
     Ok(part)
 }
 
-/// Rows that the paper does not have.
-fn others<'a>(table: &mut Table, model: &Model, ours: impl Iterator<Item = &'a (&'static str, [f64; 10], String)>) {
-    for (name, numbers, _) in ours.filter(|(name, _, _)| model.printed.iter().all(|(printed, _)| printed != name)) {
-        table.row(format!("{}: {name}", model.name), numbers, &[]);
-    }
+pub fn figure_15(lab: &Lab) -> anyhow::Result<Part> {
+    let mut part = Part::new("Opt-beta on Fertility, with sizes by curvature.");
+    let Some(surface) = model(lab, "fertility")? else {
+        part.remark(
+            "Nothing is printed but pictures and curves, and the model is not evenly's to hand out: --models fertility.off shows ours.",
+        );
+        return Ok(part);
+    };
+    let n_points = lab.pick(1700, 8500);
+    let sizes = surface_sizes(&surface, &SurfaceSizing::Curvature { error: None }, Some(n_points))?;
+    sized(lab, &mut part, &surface, &sizes, n_points)?;
+    Ok(part)
 }
 
-/// A model by our methods: name, numbers, picture.
-fn measured(lab: &Lab, model: &Model, path: &Path) -> anyhow::Result<Vec<(&'static str, [f64; 10], String)>> {
-    let surface = surface_of(&read_triangles(path)?.mesh, path, true)?;
-    let n_points = lab.pick(model.n_points / 5, model.n_points);
-    let sizing = SurfaceSizing::Curvature { error: None };
-    let sizes = if model.is_adaptive { surface_sizes(&surface, &sizing, Some(n_points))? } else { Vec::new() };
-    let methods = [(PUSH_PULL, RemeshMethod::default()), (CVT, RemeshMethod::Lloyd(LloydParams::default()))];
-    let row = |(name, method): (&'static str, RemeshMethod)| {
-        let params = RemeshParams { n_points, method, sizes: sizes.clone(), ..RemeshParams::default() };
-        let (made, _) = run(lab, &surface, &params).with_context(|| path.display().to_string())?;
-        let new = Surface::new(&made.mesh)?;
-        let (q, d) = (surface_quality(&new), surface_distance(&new, &surface));
-        let numbers = [
-            q.min_quality,
-            q.mean_quality,
-            q.min_angle_deg,
-            q.mean_min_angle_deg,
-            q.max_angle_deg,
-            100.0 * q.thin_fraction,
-            100.0 * q.obtuse_fraction,
-            100.0 * q.valence_567_fraction,
-            1e3 * d.rms,
-            1e2 * d.hausdorff,
-        ];
-        Ok((name, numbers, triangles_svg(&made.mesh)))
-    };
-    methods.into_iter().map(row).collect()
+/// A surface by sizes: the start, Opt-beta, and our ways to low ratios.
+fn sized(lab: &Lab, part: &mut Part, surface: &Surface, sizes: &[f64], n_points: usize) -> anyhow::Result<()> {
+    let methods = [
+        ("sample elimination, the start", RemeshMethod::Eliminate),
+        ("Opt-beta", RemeshMethod::OptBeta(OptBetaParams { beta: 0.73, iterations: 100, ..OptBetaParams::default() })),
+        ("well-spaced, beta 0.72", RemeshMethod::WellSpaced(WellSpacedParams { beta: 0.72, ..WellSpacedParams::default() })),
+        (PUSH_PULL, RemeshMethod::default()),
+    ];
+    let (mut rows, mut betas, mut angles, mut figures) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for (name, method) in methods {
+        let params = RemeshParams { n_points, method, sizes: sizes.to_vec(), tolerance: None, seed: 1, ..RemeshParams::default() };
+        let (made, passes) = run(lab, surface, &params)?;
+        let q = surface_quality(&Surface::new(&made.mesh)?);
+        let (local, corners) = local_betas(&made.mesh);
+        let mean = local.iter().sum::<f64>() / local.len() as f64;
+        let largest = local.iter().copied().fold(0.0, f64::max);
+        let below = 100.0 * local.iter().filter(|&&beta| beta <= 0.75).count() as f64 / local.len() as f64;
+        rows.push((name, [largest, mean, below, q.min_angle_deg, q.max_angle_deg, 100.0 * q.obtuse_fraction, passes as f64]));
+        betas.push(spread(name, &local, [0.55, 1.5], 48));
+        angles.push(spread(name, &corners, [20.0, 130.0], 55));
+        figures.push((name, triangles_svg(&made.mesh)));
+    }
+    let columns = ["local beta, largest", "mean", "up to 0.75, %", "theta_min", "theta_max", "> 90, %", "passes"];
+    let table = part.table(&columns);
+    rows.into_iter().for_each(|(name, numbers)| table.row(name, &numbers, &[]));
+    for (caption, range, curves) in [("local beta", [0.55, 1.5], betas), ("angle (degrees)", [20.0, 130.0], angles)] {
+        let high = curves.iter().flat_map(|curve| &curve.points).map(|p| p[1]).fold(1.0, f64::max);
+        part.chart(&format!("{caption}, {n_points} points"), Axis::new(caption, range), Axis::new("% in a bin", [0.0, high]), &curves);
+    }
+    figures.into_iter().for_each(|(name, svg)| part.figure(name, svg));
+    part.remark(
+        "The local beta of a point is the largest circumradius around it over its shortest edge. As in the paper, Opt-beta moves the bulk of the local ratios and the angles, and its sizes are \
+         those of the start, as a ratio has none; where it stops, single spots are left that its local steps cannot mend. The other two have one ratio, and so one pair of bounds on all angles, everywhere.",
+    );
+    Ok(())
+}
+
+/// Of each vertex of a mesh the largest circumradius around it over its shortest edge; and all angles, in degrees.
+fn local_betas(mesh: &TriangleMesh) -> (Vec<f64>, Vec<f64>) {
+    let mut at = vec![(f64::INFINITY, 0f64); mesh.vertices.len()];
+    let mut angles = Vec::with_capacity(3 * mesh.triangles.len());
+    for &corners in &mesh.triangles {
+        let length = |k: usize| {
+            let [p, q] = [corners[k], corners[(k + 1) % 3]].map(|v| mesh.vertices[v]);
+            (0..3).map(|axis| (p[axis] - q[axis]).powi(2)).sum::<f64>().sqrt()
+        };
+        let [ab, bc, ca] = [length(0), length(1), length(2)];
+        let angle = |across: f64, b: f64, c: f64| ((b * b + c * c - across * across) / (2.0 * b * c)).clamp(-1.0, 1.0).acos();
+        let radius = 0.5 * bc / angle(bc, ca, ab).sin();
+        angles.extend([angle(bc, ca, ab), angle(ca, ab, bc), angle(ab, bc, ca)].map(f64::to_degrees));
+        for (v, edge) in corners.into_iter().zip([ab.min(ca), ab.min(bc), bc.min(ca)]) {
+            at[v] = (at[v].0.min(edge), at[v].1.max(radius));
+        }
+    }
+    (at.into_iter().map(|(shortest, largest)| largest / shortest).collect(), angles)
 }
 
 pub fn figure_14(lab: &Lab) -> anyhow::Result<Part> {
@@ -159,12 +124,17 @@ pub fn figure_14(lab: &Lab) -> anyhow::Result<Part> {
     }
     figures.into_iter().for_each(|(name, svg)| part.figure(name, svg));
     part.remark("The paper's distances are geodesic, ours are chords, which at 1000 points differ by less than a part in a thousand. Its input was a maximal Poisson-disk sample, whose ratio is 1.");
-    part.remark("Figures 12 and 15, Opt-beta with a sizing function, are not here: Opt-beta's local step knows no sizes. Push-Pull by sizes is in the reproduction of its paper.");
     Ok(part)
 }
 
+/// The surface of a model, if its file is given: one whose name begins so.
+pub fn model(lab: &Lab, name: &str) -> anyhow::Result<Option<Surface>> {
+    let is_it = |path: &&PathBuf| path.file_stem().is_some_and(|stem| stem.to_string_lossy().to_lowercase().starts_with(name));
+    lab.models.iter().find(is_it).map(|path| surface_of(&read_triangles(path)?.mesh, path, true)).transpose()
+}
+
 /// A run, and how many passes it took.
-fn run(lab: &Lab, surface: &Surface, params: &RemeshParams) -> anyhow::Result<(Remeshed, usize)> {
+pub fn run(lab: &Lab, surface: &Surface, params: &RemeshParams) -> anyhow::Result<(Remeshed, usize)> {
     lab.check()?;
     lab.bar.set_message(format!("{}, {} vertices", params.method.name(), params.n_points));
     let (made, report) = remesh(surface, params, &mut RunContext::default().with_cancel(lab.cancel.clone()))?;

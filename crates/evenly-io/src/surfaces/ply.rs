@@ -16,22 +16,14 @@ use crate::Error;
 const AXES: [&str; 3] = ["x", "y", "z"];
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
-    let (building, is_text) = read_elements(name, bytes, &[("vertex", &AXES[..]), ("face", &CORNERS[..1])])?;
-    building.finish(name, |place| if is_text { format!("{name}:{place}") } else { format!("{name}, face {place}") })
-}
-
-/// The vertices alone, whether there are faces or not.
-pub(super) fn read_vertices_of(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Error> {
-    Ok(read_elements(name, bytes, &[("vertex", &AXES[..])])?.0.mesh.vertices)
-}
-
-/// What is in the file, which must have each of these elements once; and whether it is text.
-fn read_elements(name: &str, bytes: &[u8], needed: &[(&str, &[&str])]) -> Result<(Building, bool), Error> {
+/// A file without faces is an error, unless it may be.
+pub(super) fn read(name: &str, bytes: &[u8], may_be_points: bool) -> Result<TrianglesRead, Error> {
     let mut text = Text::new(name, bytes);
     let header = Header::read(&mut text)?;
-    for (kind, wanted) in needed {
-        if header.elements.iter().filter(|element| element.name == *kind).count() != 1 {
+    let number = |kind: &str| header.elements.iter().filter(|element| element.name == kind).count();
+    let is_points = may_be_points && header.elements.iter().all(|element| element.name != "face" || element.count == 0);
+    for (kind, wanted) in [("vertex", &AXES[..]), ("face", &CORNERS[..1])] {
+        if number(kind) != 1 && !(kind == "face" && is_points) {
             return Err(Error::content(name, format!("its header should have one element {kind}, with {}", wanted.join(", "))));
         }
     }
@@ -44,7 +36,11 @@ fn read_elements(name: &str, bytes: &[u8], needed: &[(&str, &[&str])]) -> Result
             _ => skip(element, &mut values)?,
         }
     }
-    Ok((building, values.is_text()))
+    if is_points {
+        return Ok(TrianglesRead { mesh: building.mesh, notes: building.notes });
+    }
+    let is_text = values.is_text();
+    building.finish(name, |place| if is_text { format!("{name}:{place}") } else { format!("{name}, face {place}") })
 }
 
 fn read_vertices(element: &Element, values: &mut Values, building: &mut Building) -> Result<(), Error> {

@@ -26,7 +26,7 @@ from evenly._meshes import Mesh, MeshQuality, mesh
 from evenly._points import Points, generate, optimize
 from evenly._spaces import Polygon, Rectangle, Torus
 from evenly._stipples import Layer, Stippling, stipple
-from evenly._surfaces import SurfaceDistance, SurfaceMesh, SurfacePoints, SurfaceQuality, remesh, sample
+from evenly._surfaces import SurfaceDistance, SurfaceMesh, SurfacePoints, SurfaceQuality, SurfaceSpectrum, remesh, sample, surface_spectrum
 
 __version__ = _evenly.__version__
 
@@ -58,6 +58,7 @@ __all__ = [
     "SurfaceMesh",
     "SurfacePoints",
     "SurfaceQuality",
+    "SurfaceSpectrum",
     "Torus",
     "compare",
     "generate",
@@ -70,4 +71,5 @@ __all__ = [
     "remesh",
     "sample",
     "stipple",
+    "surface_spectrum",
 ]

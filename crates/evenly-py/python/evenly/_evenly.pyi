@@ -36,6 +36,7 @@ __all__ = [
     "sample",
     "stipple",
     "surface_figure",
+    "surface_spectrum",
     "triangles",
     "write_mesh",
     "write_surface",
@@ -105,11 +106,14 @@ def remesh(
     shape: _Shape,
     words: list[str],
     sizes: list[float] | None,
-    start: _Rows | None,
+    points: _Rows | None,
     threads: int | None,
     callback: _Callback,
 ) -> tuple[_Places, NDArray[np.int64], list[tuple[str, NDArray[np.float64]]], str]: ...
 def sample(shape: _Shape, words: list[str], threads: int | None, callback: _Callback) -> tuple[_Places, str]: ...
+def surface_spectrum(
+    shape: _Shape, points: _Rows, is_local: bool, is_repaired: bool, threads: int | None
+) -> tuple[tuple[float, float], tuple[_Rows, _Rows, _Rows, _Rows, float, float]]: ...
 def write_surface(
     path: str,
     places: tuple[_Rows, list[int], _Rows, _Rows],

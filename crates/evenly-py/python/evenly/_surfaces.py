@@ -128,6 +128,31 @@ class SurfacePoints(Frozen):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class SurfaceSpectrum(Frozen):
+    """What `surface_spectrum` finds, by ways along the surface."""
+
+    min_distance: float
+    """Smallest distance of two points, relative to the spacing of a hexagonal lattice with as many."""
+    mean_distance: float
+    """Mean distance to the nearest point, relative to the same."""
+    frequencies: Floats
+    """In inverse mean spacings."""
+    power: Floats
+    """Mean power at each; 1 for white noise."""
+    distances: Floats
+    """In mean spacings ``sqrt(A / n)``."""
+    correlation: Floats
+    """How many pairs there are at each distance, relative to white noise on the same surface."""
+    effective_nyquist: float
+    """Up to here there is next to no power (Heck, Schlömer and Deussen 2013)."""
+    oscillation: float
+    """How strongly the power swings beyond."""
+
+    def __repr__(self) -> str:
+        return f"<spectrum on a surface, effective Nyquist {self.effective_nyquist:.3f}, oscillation {self.oscillation:.3f}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class SurfaceMesh(Frozen):
     """Triangles in space, and where their vertices lie on the mesh that was given."""
 
@@ -199,7 +224,7 @@ def remesh(
     beta: float | None = None,
     iterations: int | None = None,
     density: "str | ArrayLike | None" = None,
-    start: "ArrayLike | None" = None,
+    points: "ArrayLike | None" = None,
     features: float | Literal["off"] = 40.0,
     tolerance: float | Literal["off"] | None = None,
     repair: bool = False,
@@ -213,13 +238,13 @@ def remesh(
     shape : mesh, file, or pair of arrays
         What trimesh, pyvista and meshio have; a path to .obj, .ply, .stl, .off, .gltf or .glb; or vertices of shape (k, 3) and triangles of shape (l, 3).
     n : int, optional
-        How many vertices, exactly. This, `spacing`, a density with an error, or a start.
+        How many vertices, exactly. This, `spacing`, a density with an error, or points.
     spacing : float, optional
         The length of edges, in input units, instead.
     seed : int, SeedSequence, Generator or None
         As in `generate`.
     method : str
-        By which rule vertices move; with 'eliminate' they stay at the start.
+        By which rule vertices move; with 'eliminate' they stay where they begin.
     preset, min_distance, coverage_radius, capacity_tolerance : optional
         Targets of 'push-pull', relative to the spacing; {0.90, 0.63} by default, with a tolerance of 0.1.
     beta : float, optional
@@ -228,7 +253,7 @@ def remesh(
         Passes at most, and as many again after vertices are put or let go.
     density : str or array_like of shape (k,), optional
         'curvature', 'curvature:0.01' (an error in input units), 'lfs', 'linear:z,4', of files 'attr:NAME'; or the wanted lengths of edges at the vertices, in proportion.
-    start : array_like of shape (k, 3), optional
+    points : array_like of shape (k, 3), optional
         Points at which vertices begin, as many as are wanted or more.
     features : float or 'off'
         Edges at which the surface turns by more than so many degrees are kept; borders are in any case.
@@ -263,7 +288,7 @@ def remesh(
     has_sizes = density is not None and not isinstance(density, str)
     if n is not None and spacing is not None:
         raise ValueError("give either n or spacing")
-    begin = None if start is None else rows(start, "start", 3)
+    begin = None if points is None else rows(points, "points", 3)
     if n is None and spacing is None and begin is not None:
         n = len(begin)
     if n is None and spacing is None and (density is None or has_sizes):
@@ -382,6 +407,66 @@ def sample(
 
     native = _native(shape)
     return run(lambda: _evenly.sample(native, options, threads_of(threads), told(callback)), build)
+
+
+def surface_spectrum(
+    points: "ArrayLike",
+    shape: object,
+    *,
+    local: bool = False,
+    repair: bool = False,
+    threads: int | None = None,
+) -> SurfaceSpectrum:
+    """Tell how points are spread over a triangle mesh, by differential domain analysis (Wei and Wang 2011).
+
+    Parameters
+    ----------
+    points : array_like of shape (n, 3)
+        On the mesh, or near it; 100 or more.
+    shape : mesh, file, or pair of arrays
+        See `remesh`.
+    local : bool
+        Take each point's distances in its own spacing, where the density varies.
+    repair : bool
+        Mend the mesh, as in `remesh`.
+    threads : int, optional
+        All by default; the result does not depend on it.
+
+    Returns
+    -------
+    SurfaceSpectrum
+        The smallest and the mean distance, the pair correlation, and the power that belongs to it.
+
+    Raises
+    ------
+    ValueError
+        For too few points, and meshes that make no surface.
+
+    Examples
+    --------
+    >>> import evenly
+    >>> vertices = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    >>> triangles = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (1, 0, 5), (2, 1, 5), (3, 2, 5), (0, 3, 5)]
+    >>> points = evenly.sample((vertices, triangles), 1000)
+    >>> evenly.surface_spectrum(points, (vertices, triangles)).effective_nyquist > 0.8
+    True
+    """
+    places, native = rows(points, "points", 3), _native(shape)
+
+    def build(answer: tuple[tuple[float, float], tuple[Floats, Floats, Floats, Floats, float, float]]) -> SurfaceSpectrum:
+        (smallest, mean), (frequencies, power, distances, correlation, nyquist, oscillation) = answer
+        return SurfaceSpectrum(
+            min_distance=smallest,
+            mean_distance=mean,
+            frequencies=frozen(frequencies),
+            power=frozen(power),
+            distances=frozen(distances),
+            correlation=frozen(correlation),
+            effective_nyquist=nyquist,
+            oscillation=oscillation,
+        )
+
+    return run(lambda: _evenly.surface_spectrum(native, places, bool(local), bool(repair), threads_of(threads)), build)
 
 
 def _read(kind: Any, said: dict[str, Any]) -> Any:

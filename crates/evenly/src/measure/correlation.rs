@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::points::{PointSet, hilbert_order};
 
 /// Bins of distances in a mean spacing.
-pub(super) const BINS: usize = 200;
+pub(crate) const BINS: usize = 200;
 
 /// The pair correlation of a set in `n_bins` bins of 1 / [`BINS`] of each point's own `spacing`, a length of the normalised domain.
 pub(super) fn correlate(points: &PointSet, n_bins: usize, spacing: &(impl Fn(usize) -> f64 + Sync)) -> Result<Vec<f64>, Error> {
@@ -52,7 +52,7 @@ pub(super) fn correlate(points: &PointSet, n_bins: usize, spacing: &(impl Fn(usi
 }
 
 /// Brings the mean over far pairs to 1: a density that is a little wrong would else look like a long wave.
-pub(super) fn level(correlation: &mut [f64]) -> Result<(), Error> {
+pub(crate) fn level(correlation: &mut [f64]) -> Result<(), Error> {
     let far = correlation.len() / 2;
     let weighted = |values: &mut dyn Iterator<Item = (usize, f64)>| values.map(|(bin, value)| (bin as f64 + 0.5) * value).sum::<f64>();
     let sum = weighted(&mut correlation.iter().copied().enumerate().skip(far));

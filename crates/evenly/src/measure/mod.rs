@@ -16,6 +16,7 @@ mod triangles;
 mod voronoi;
 mod weighted;
 
+pub(crate) use correlation::{BINS, level};
 pub use differential::{differential_spectrum, local_spacings};
 pub use measures::{BorderMeasures, Measures, measure};
 pub use power::{PowerSpectrum, power_spectrum};

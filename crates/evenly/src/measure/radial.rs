@@ -81,7 +81,7 @@ pub fn radial_spectrum(sets: &[PointSet]) -> Result<RadialSpectrum, Error> {
 }
 
 impl RadialSpectrum {
-    pub(super) fn of(n_sets: usize, pair_correlation: Vec<f64>) -> Self {
+    pub(crate) fn of(n_sets: usize, pair_correlation: Vec<f64>) -> Self {
         let distances: Vec<f64> = (0..pair_correlation.len()).map(|bin| bin as f64 / BINS as f64).collect();
         let frequencies: Vec<f64> = (1..=(MAX_FREQUENCY * STEPS as f64) as usize).map(|step| step as f64 / STEPS as f64).collect();
         let radial_power = transform(&frequencies, &distances, &pair_correlation);

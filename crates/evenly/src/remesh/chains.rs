@@ -22,17 +22,34 @@ struct Plan {
     lengths: Vec<f64>,
     total: f64,
     n_gaps: usize,
+    /// Places of given points, in order, if they are at least half as many as there would be.
+    given: Vec<f64>,
     /// The first gap and the last, where a corner there is sharp.
     at_corners: [Option<f64>; 2],
 }
 
 impl Plan {
-    fn new(draft: &Draft, chain: &Chain, spacing: f64) -> Self {
+    fn new(draft: &Draft, chain: &Chain, spacing: f64, on_edges: &BTreeMap<[u32; 2], Vec<f64>>) -> Self {
         let lengths: Vec<f64> = chain.steps().map(|(a, b)| weighted(draft, a, b)).collect();
         let total: f64 = lengths.iter().sum();
         let least = if chain.is_closed { 3 } else { 1 };
         let n_gaps = ((total / (GAP * spacing)).round() as usize).max(least);
-        Self { lengths, total, n_gaps, at_corners: [None; 2] }
+        let mut given = Vec::new();
+        let mut behind = 0.0;
+        for ((a, b), length) in chain.steps().zip(&lengths) {
+            let shares = on_edges.get(&[a.min(b), a.max(b)]).into_iter().flatten();
+            given.extend(shares.map(|share| behind + length * if a < b { *share } else { 1.0 - share }));
+            behind += length;
+            given.extend(on_edges.get(&[b; 2]).map(|_| behind));
+        }
+        // What lies at the ends is there anyway.
+        given.retain(|&place| place > AT_END * total && place < (1.0 - AT_END) * total);
+        given.sort_by(f64::total_cmp);
+        given.dedup_by(|a, b| *a - *b <= AT_END * total);
+        if given.is_empty() || 2 * given.len() + 2 < n_gaps || given.len() + 1 < least {
+            return Self { lengths, total, n_gaps, given: Vec::new(), at_corners: [None; 2] };
+        }
+        Self { lengths, total, n_gaps: given.len() + 1, given, at_corners: [None; 2] }
     }
 
     fn gap(&self) -> f64 {
@@ -41,6 +58,9 @@ impl Plan {
 
     /// How far along the chain the points inside are.
     fn places(&self) -> Vec<f64> {
+        if !self.given.is_empty() {
+            return self.given.clone();
+        }
         let [mut first, mut last] = self.at_corners.map(|gap| gap.unwrap_or(self.gap()));
         // What a sharp corner asks for is not given where it would leave no room for the others.
         if self.total - first - last < LEAST_ROOM * self.gap() * (self.n_gaps as f64 - 2.0)
@@ -60,10 +80,10 @@ impl Plan {
     }
 }
 
-/// Pins the corners, and points between them so many spacings apart. Nothing is done if those were more than `most`: then this returns how many.
-pub(super) fn pin_chains(draft: &mut Draft, spacing: f64, most: usize) -> Result<(), usize> {
+/// Pins the corners, and points between them so many spacings apart, or those that are given on edges. Nothing is done if those were more than `most`: then this returns how many.
+pub(super) fn pin_chains(draft: &mut Draft, spacing: f64, most: usize, on_edges: &BTreeMap<[u32; 2], Vec<f64>>) -> Result<(), usize> {
     let chains = &draft.features.chains;
-    let mut plans: Vec<Plan> = chains.iter().map(|chain| Plan::new(draft, chain, spacing)).collect();
+    let mut plans: Vec<Plan> = chains.iter().map(|chain| Plan::new(draft, chain, spacing, on_edges)).collect();
     let n_points = plans.iter().fold(0, |sum: usize, plan| sum.saturating_add(plan.n_gaps - 1));
     if n_points > most {
         return Err(n_points);

@@ -419,9 +419,8 @@ impl<'a> Draft<'a> {
             let [b, c] = [x, y].map(|v| self.at(v));
             let (old, new) = ((b - from).cross(c - from), (b - to).cross(c - to));
             let is_turned = new.dot(old) <= least_turn * new.length() * old.length();
-            !is_turned
-                && !(is_spared && self.is_wedged([u, x, y]))
-                && Guard::FIRM.allows(self.fit(old, [v, x, y]), self.fit(new, [u, x, y]))
+            let is_bad = is_turned || is_spared && self.is_wedged([u, x, y]);
+            !is_bad && Guard::FIRM.allows(self.fit(old, [v, x, y]), self.fit(new, [u, x, y]))
         })
     }
 

@@ -7,40 +7,60 @@ use rayon::prelude::*;
 
 use super::draft::Draft;
 use crate::error::Error;
-use crate::surface::{Facets, Place};
+use crate::surface::{Facets, Place, Surface, morton};
 use crate::triangulation::{BORDER, next};
 
 /// What is so near to an edge, as a part of the triangle's height, lies on it.
 const ON_EDGE: f64 = 1e-8;
 
-/// Puts a vertex where each point lies, or at the nearest place of the surface. Vertices on creases are those of the creases, unless it takes more to have so many as are wanted.
+/// The nearest places of a surface to points, and how far these are from them.
+pub(super) fn places(surface: &Surface, points: &[DVec3]) -> Vec<(Place, f64)> {
+    let solid: Vec<u32> = (0..surface.n_triangles() as u32).filter(|&t| surface.normals[t as usize] != DVec3::ZERO).collect();
+    let facets = Facets::new(solid.iter().map(|&t| surface.corners(t as usize)).collect());
+    let place = |&p: &DVec3| {
+        let place = surface.nearest_on(facets.nearest(p).map_or(0, |(k, _)| solid[k]), p);
+        (place, place.at.distance(p))
+    };
+    points.par_iter().map(place).collect()
+}
+
+/// Of places that lie on edges the edge, by its ends in order, and how far along it from the first; of one at a vertex that twice.
+pub(super) fn on_edges(surface: &Surface, places: &[(Place, f64)]) -> BTreeMap<[u32; 2], Vec<f64>> {
+    let mut all: BTreeMap<[u32; 2], Vec<f64>> = BTreeMap::new();
+    for (Place { face, weights, .. }, _) in places {
+        let corners = surface.half_edges.triangle(*face as usize);
+        if let Some(k) = (0..3).find(|&k| weights[k] >= 1.0 - ON_EDGE) {
+            all.entry([corners[k]; 2]).or_default().push(0.0);
+            continue;
+        }
+        let Some(k) = (0..3).find(|&k| weights[k] <= ON_EDGE) else { continue };
+        let [(a, _), (b, along)] = [(k + 1) % 3, (k + 2) % 3].map(|k| (corners[k], weights[k]));
+        all.entry([a.min(b), a.max(b)]).or_default().push(if a < b { along } else { 1.0 - along });
+    }
+    all
+}
+
+/// Puts a vertex at each place.
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] for two points in one place.
-pub(super) fn put_all(draft: &mut Draft, points: &[DVec3], n_wanted: usize) -> Result<(), Error> {
-    let surface = draft.surface;
-    let solid: Vec<u32> = (0..surface.n_triangles() as u32).filter(|&t| surface.normals[t as usize] != DVec3::ZERO).collect();
-    let facets = Facets::new(solid.iter().map(|&t| surface.corners(t as usize)).collect());
-    let host = |p: &DVec3| facets.nearest(*p).map_or(0, |(k, _)| solid[k]);
-    let hosts: Vec<u32> = points.par_iter().map(host).collect();
+pub(super) fn put_all(draft: &mut Draft, places: &[(Place, f64)]) -> Result<(), Error> {
+    // Those of a triangle one after the other, and each near to the one before.
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by_cached_key(|&k| (places[k].0.face, morton(places[k].0.at)));
     // A triangle of the draft in each of the surface: there the search begins.
     let mut begin: BTreeMap<u32, u32> = draft.hosts.iter().copied().zip(0..).collect();
-    let mut points_at: BTreeMap<u32, usize> = BTreeMap::new();
-    for (k, (&p, &host)) in points.iter().zip(&hosts).enumerate() {
-        let place = surface.nearest_on(host, p);
-        let t = locate(draft, begin[&host], place.at);
-        begin.insert(host, t);
+    let mut point_at: BTreeMap<u32, usize> = BTreeMap::new();
+    for k in order {
+        let place = places[k].0;
+        let t = locate(draft, begin[&place.face], place.at);
+        begin.insert(place.face, t);
         let v = put(draft, t, place);
-        if let Some(other) = points_at.insert(v, k) {
-            let value = format!("the points {other} and {k} in one place of the surface");
-            return Err(Error::InvalidParameter { name: "start", value, expected: "points in different places" });
+        if let Some(other) = point_at.insert(v, k) {
+            let value = format!("such that the nearest places of the surface to points {} and {} are one", other.min(k), other.max(k));
+            return Err(Error::InvalidParameter { name: "points", value, expected: "points whose places differ" });
         }
         draft.vertices[v as usize].is_given = !draft.is_loose(v);
-    }
-    let n_missing = n_wanted.saturating_sub(n_kept(draft));
-    for v in points_at.into_keys().filter(|&v| draft.is_loose(v)).take(n_missing).collect::<Vec<_>>() {
-        draft.pin(v);
-        draft.vertices[v as usize].is_given = true;
     }
     Ok(())
 }

@@ -15,7 +15,7 @@ pub enum RemeshMethod {
     WellSpaced(WellSpacedParams),
     /// To the centroids of the cells.
     Lloyd(LloydParams),
-    /// To the least ratio of each cell by itself. It knows no sizes.
+    /// To the least ratio of each cell by itself. A ratio has no size: cells keep about those of the start.
     OptBeta(OptBetaParams),
     /// They stay where the start has them: sample elimination, or given points.
     Eliminate,

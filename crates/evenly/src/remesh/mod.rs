@@ -63,7 +63,7 @@ pub struct RemeshParams {
     pub sizes: Vec<f64>,
     /// Points on the surface, or near it, at which vertices are to begin, at least as many as are wanted; empty for a start by elimination.
     #[serde(skip)]
-    pub start: Vec<[f64; 3]>,
+    pub points: Vec<[f64; 3]>,
     /// The start and the order of visits depend on it.
     pub seed: u64,
 }
@@ -76,7 +76,7 @@ impl Default for RemeshParams {
             features_deg: Some(40.0),
             tolerance: Some(0.5),
             sizes: Vec::new(),
-            start: Vec::new(),
+            points: Vec::new(),
             seed: 0,
         }
     }
@@ -87,7 +87,7 @@ impl RemeshParams {
     ///
     /// # Errors
     /// [`Error::InvalidParameter`] for a value outside its range, sizes that are not positive, differ more than a millionfold, or are not as many as the surface has vertices, and
-    /// a start that is not finite, or of fewer points than are wanted.
+    /// points that are not finite, or fewer than are wanted.
     pub fn validate(&self, surface: &Surface) -> Result<(), Error> {
         let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
         if self.n_points < 4 || self.n_points > crate::MAX_POINTS {
@@ -113,11 +113,12 @@ impl RemeshParams {
                 "such that the largest is at most a million times the smallest",
             );
         }
-        if !self.start.is_empty() && self.start.len() < self.n_points {
-            return invalid("start", format!("{} points", self.start.len()), "at least as many points as vertices are wanted, or none");
+        if !self.points.is_empty() && self.points.len() < self.n_points {
+            let value = format!("{} where {} vertices are wanted", self.points.len(), self.n_points);
+            return invalid("points", value, "at least as many, or none");
         }
-        if let Some(p) = self.start.iter().find(|p| !p.iter().all(|x| x.is_finite())) {
-            return invalid("start", format!("a point ({}, {}, {})", p[0], p[1], p[2]), "finite");
+        if let Some((k, p)) = self.points.iter().enumerate().find(|(_, p)| !p.iter().all(|x| x.is_finite())) {
+            return invalid("points", format!("({}, {}, {}) at {k}", p[0], p[1], p[2]), "finite");
         }
         self.method.validate()
     }
@@ -172,7 +173,7 @@ impl Vertex {
 /// Where the targets are not reached, the report says so, and the mesh is in the best state that was seen.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] as [`RemeshParams::validate`] has it, for fewer points than the surface's shape and features need, and for two points of the start in one place.
+/// [`Error::InvalidParameter`] as [`RemeshParams::validate`] has it, for fewer points than the surface's shape and features need, and for two of the points in one place.
 ///
 /// # Example
 /// ```
@@ -196,17 +197,36 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
 
     // 1. Exactly so many vertices, with the surface's topology.
     run.enter(Phase::Triangulate);
-    let given: Vec<_> = params.start.iter().map(|&p| surface.frame.inward(p)).collect();
+    let inside: Vec<_> = params.points.iter().map(|&p| surface.frame.inward(p)).collect();
+    let given = given::places(surface, &inside);
     let start = start(surface, &features, &sizes, params.n_points, &given, params.seed)?;
     report.triangulations = 1;
-    if !given.is_empty() && start.n_given < params.n_points {
-        let n = params.n_points - start.n_given;
-        report.notes.push(format!("{n} vertices did not begin at given points: creases, borders and the surface's shape have their own"));
-    }
+    note_given(surface, &given, params.n_points, start.n_given, &mut report);
 
     // 2. They move until all is as it should be.
     let live = settle(LiveSurface::new(surface, &features, &sizes, start), params, run, &mut report)?;
     Ok((finished(surface, &live), report))
+}
+
+/// Says what did not go as given points have it.
+fn note_given(surface: &Surface, given: &[(Place, f64)], n_points: usize, n_given: usize, report: &mut Report) {
+    if given.is_empty() {
+        return;
+    }
+    if n_given < n_points {
+        let n = n_points - n_given;
+        report
+            .notes
+            .push(format!("vertices that did not begin at given points: {n}; creases, borders and the surface's shape have their own"));
+    }
+    let spacing = start::spacing(surface, n_points);
+    let n_far = given.iter().filter(|(_, distance)| *distance > spacing).count();
+    if n_far > 0 {
+        let farthest = surface.frame.length_outward(given.iter().map(|(_, distance)| *distance).fold(0.0, f64::max));
+        report.notes.push(format!(
+            "given points farther than a spacing from the surface: {n_far}, the farthest {farthest:.3e}; are the units right?"
+        ));
+    }
 }
 
 /// Sizes of which 1 is the mean, such that they ask for as many vertices as 1 everywhere.

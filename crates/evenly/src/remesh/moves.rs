@@ -25,6 +25,8 @@ impl LiveSurface<'_> {
             self.walk(v, &mut buffer.moving);
             pushed.extend(buffer.moving.iter().map(|spoke| spoke.vertex));
         }
+        pushed.sort_unstable();
+        pushed.dedup();
         for v in pushed {
             let way = DVec3::new(random.signed(), random.signed(), random.signed());
             self.go(v, by * self.local_spacing(v) * way, &mut buffer);

@@ -103,6 +103,7 @@ fn find_places(sweep: &mut Sweep<LiveSurface>, params: &RemeshParams, run: &mut 
         RemeshMethod::WellSpaced(wanted) => push_and_pull(sweep, &wanted.targets(), params.seed, run, report)?,
         RemeshMethod::Lloyd(wanted) => relax(sweep, &wanted.rule(), wanted.iterations, params.seed, run, report),
         RemeshMethod::DistMesh(wanted) => relax(sweep, &wanted.rule(), wanted.iterations, params.seed, run, report),
+        // It has no passes.
         RemeshMethod::Eliminate => {}
         RemeshMethod::OptBeta(wanted) => to_least_ratio(sweep, &wanted, params.seed, run, report)?,
     }

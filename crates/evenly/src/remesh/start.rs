@@ -1,30 +1,28 @@
 //! The start of a remeshing: exactly n vertices on the surface, with its topology and along its features.
 
-use glam::DVec3;
-
 use super::chains::pin_chains;
 use super::draft::Draft;
 use super::eliminate::{eliminate, subdivide};
-use super::given::{n_kept, put_all};
+use super::given::{n_kept, on_edges, put_all};
 use super::live::{Start, Vertex};
 use crate::error::Error;
-use crate::surface::{Features, Surface};
+use crate::surface::{Features, Place, Surface, morton};
 
 /// The spacing of so many vertices on a surface: the edge of equilateral triangles, two for each.
 pub(super) fn spacing(surface: &Surface, n_points: usize) -> f64 {
     (2.0 * surface.inner_area() / (3f64.sqrt() * n_points as f64)).sqrt()
 }
 
-/// Splits and collapses edges of the surface until exactly so many vertices are left; of given points, if there are any.
+/// Splits and collapses edges of the surface until exactly so many vertices are left; of given places, if there are any.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] for fewer points than the features and the topology need, and two given points in one place.
+/// [`Error::InvalidParameter`] for fewer points than the features and the topology need, and two given places that are one.
 pub(super) fn start(
     surface: &Surface,
     features: &Features,
     sizes: &[f64],
     n_points: usize,
-    given: &[DVec3],
+    given: &[(Place, f64)],
     seed: u64,
 ) -> Result<Start, Error> {
     let spacing = spacing(surface, n_points);
@@ -35,15 +33,15 @@ pub(super) fn start(
         expected: "as many as the mesh's shape and its features need; without features fewer do",
     };
     // 1. Points along creases and borders.
-    pin_chains(&mut draft, spacing, n_points).map_err(too_few)?;
+    pin_chains(&mut draft, spacing, n_points, &on_edges(surface, given)).map_err(too_few)?;
     features.tips.iter().for_each(|&v| draft.pin(v));
     // 2. Vertices to choose from.
     if given.is_empty() {
         subdivide(&mut draft, spacing, n_points, seed);
     } else {
-        put_all(&mut draft, given, n_points)?;
+        put_all(&mut draft, given)?;
         // All others go first.
-        let n_kept = n_kept(&draft);
+        let n_kept = n_kept(&draft).max(n_points);
         eliminate(&mut draft, n_kept, seed);
         draft.keeps_given = false;
     }
@@ -82,11 +80,4 @@ fn finished(draft: &Draft) -> Start {
     bonds.dedup();
     let n_given = order.iter().filter(|&&v| draft.vertices[v as usize].is_given).count();
     Start { half_edges, vertices, fixed, bonds, n_given }
-}
-
-/// Where a place lies on Morton's curve through the box from -2 to 2.
-fn morton(p: DVec3) -> u64 {
-    const BITS: u32 = 21;
-    let cells = ((p + 2.0) * f64::from(1u32 << (BITS - 2))).to_array().map(|x| (x.max(0.0) as u64).min((1 << BITS) - 1));
-    (0..BITS).fold(0, |code, bit| code | (0..3).fold(0, |bits, axis| bits | (cells[axis] >> bit & 1) << (3 * bit + axis as u32)))
 }

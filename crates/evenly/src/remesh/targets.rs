@@ -54,16 +54,20 @@ impl LiveSurface<'_> {
         restless.into_iter().for_each(|v| self.release(v));
     }
 
-    /// The largest circumradius over the shortest edge, once all edges are Delaunay.
+    /// The largest circumradius over the shortest edge, once all edges are Delaunay; where sizes vary, of what is around one vertex.
     pub fn beta(&mut self) -> f64 {
         self.legalize();
-        let (mut shortest, mut largest) = (f64::INFINITY, 0f64);
+        // The shortest edge at each vertex, or of all, and the largest circumradius there.
+        let mut at = vec![(f64::INFINITY, 0f64); if self.is_uniform { 1 } else { self.mesh.n_vertices() }];
         for corners in self.half_edges().triangles() {
             let [a, b, c] = corners.map(|v| self.at(v));
-            let edges = [a.distance(b), b.distance(c), c.distance(a)];
-            shortest = edges.into_iter().fold(shortest, f64::min);
-            largest = largest.max(edges.iter().product::<f64>() / (2.0 * (b - a).cross(c - a).length()));
+            let [ab, bc, ca] = [a.distance(b), b.distance(c), c.distance(a)];
+            let radius = ab * bc * ca / (2.0 * (b - a).cross(c - a).length());
+            for (v, edge) in corners.into_iter().zip([ab.min(ca), ab.min(bc), bc.min(ca)]) {
+                let (shortest, largest) = &mut at[if self.is_uniform { 0 } else { v as usize }];
+                (*shortest, *largest) = (shortest.min(edge), largest.max(radius));
+            }
         }
-        largest / shortest
+        at.into_iter().map(|(shortest, largest)| largest / shortest).fold(0.0, f64::max)
     }
 }

@@ -144,7 +144,7 @@ fn flipped_triangles(surface: &Surface, reference: &Surface) -> usize {
 }
 
 /// The k-th place of a sequence that fills the unit square evenly (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
-fn quasi_random(k: usize) -> [f64; 2] {
+pub(super) fn quasi_random(k: usize) -> [f64; 2] {
     const PLASTIC: f64 = 1.324_717_957_244_746;
     let at = |step: f64| (0.5 + (k + 1) as f64 * step).fract();
     [at(1.0 / PLASTIC), at(1.0 / (PLASTIC * PLASTIC))]
