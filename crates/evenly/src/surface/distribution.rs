@@ -276,11 +276,12 @@ impl Ground {
         let mut n_points = vec![0.0; surface.n_triangles()];
         points.iter().for_each(|point| n_points[point.face as usize] += 1.0);
         let n_places = (PLACES * points.len()).min(MOST_PLACES) as f64;
+        let whole = surface.inner_area();
         let (mut ground, mut wanted, mut area) = (Self { spots: Vec::new(), areas: Vec::new() }, 0.0, 0.0);
-        for t in 0..surface.n_triangles() {
+        for (t, n_own) in n_points.into_iter().enumerate() {
             let [a, b, c] = surface.corners(t);
             let own = 0.5 * (b - a).cross(c - a).length();
-            wanted += 0.5 * n_places * (own / surface.inner_area() + n_points[t] / points.len() as f64);
+            wanted += 0.5 * n_places * (own / whole + n_own / points.len() as f64);
             // What small triangles have goes to the next place.
             area += own;
             let n = wanted as usize;
