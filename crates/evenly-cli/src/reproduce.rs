@@ -9,6 +9,7 @@ mod part;
 mod procrustes;
 mod push_pull;
 mod recipes;
+mod spread;
 mod study;
 mod surfaces;
 

@@ -10,6 +10,7 @@ use super::filtering;
 use super::lab::{Lab, Profile, Recipe};
 use super::part::Part;
 use super::recipes::{by_opt_beta, by_well_spaced, cvt, distmesh, farthest_local};
+use super::spread::spread;
 use super::study::Study;
 use super::surfaces;
 use crate::method::Method;
@@ -80,20 +81,6 @@ fn tiling(points: &[[f64; 2]], [width, height]: [f64; 2]) -> anyhow::Result<Poin
     let corners = (0..N * N).map(|cell| [(cell % N) as f64 * width, (cell / N) as f64 * height]);
     let places = corners.flat_map(|[x, y]| points.iter().map(move |p| [x + p[0], y + p[1]])).collect();
     Ok(PointSet::new(Torus::new([0.0, 0.0], [N as f64 * width, N as f64 * height])?, places)?)
-}
-
-/// How often values fall in each of the bins between `low` and `high`, as a share of all values.
-pub(super) fn spread(name: &str, values: &[f64], [low, high]: [f64; 2], n_bins: usize) -> Curve {
-    let width = (high - low) / n_bins as f64;
-    let mut counts = vec![0.0; n_bins];
-    for value in values {
-        let bin = ((value - low) / width).floor();
-        if let Some(count) = counts.get_mut(bin as usize).filter(|_| bin >= 0.0) {
-            *count += 100.0 / values.len() as f64;
-        }
-    }
-    let points = counts.iter().enumerate().map(|(bin, count)| [low + (bin as f64 + 0.5) * width, *count]).collect();
-    Curve { name: name.into(), points }
 }
 
 /// Angles, edge lengths and circumradii of all triangles, lengths in smallest distances.

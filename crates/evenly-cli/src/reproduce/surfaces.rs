@@ -10,8 +10,8 @@ use evenly::{
 use evenly_io::{Axis, read_triangles, triangles_svg};
 
 use super::lab::{Interrupted, Lab};
-use super::opt_beta::spread;
 use super::part::Part;
+use super::spread::spread;
 use crate::remeshed::surface_of;
 
 pub const PUSH_PULL: &str = "Push-Pull {0.90, 0.63}";
