@@ -88,10 +88,10 @@ pub fn measure_on_surface(surface: &Surface, points: &[[f64; 3]]) -> Result<Surf
 /// let vertices = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 /// let surface = Surface::new(&TriangleMesh { vertices, triangles, attributes: Vec::new() })?;
-/// let (points, _) = sample_surface(&surface, SurfaceSampling::Eliminate(500), 7, &mut RunContext::default())?;
+/// let (points, _) = sample_surface(&surface, SurfaceSampling::PushPull(500), 7, &mut RunContext::default())?;
 /// let positions: Vec<[f64; 3]> = points.iter().map(|point| point.position).collect();
 /// let spectrum = surface_spectrum(&surface, &positions, false)?;
-/// assert!(spectrum.effective_nyquist > 0.4);
+/// assert!(spectrum.effective_nyquist > 0.7);
 /// # Ok::<(), evenly::Error>(())
 /// ```
 pub fn surface_spectrum(surface: &Surface, points: &[[f64; 3]], is_local: bool) -> Result<RadialSpectrum, Error> {
