@@ -140,6 +140,7 @@ fn bad_input_is_one_clear_error() {
         ("analyze cloud.ply --reference torus.off --spectrum", "too few"),
         ("analyze cloud.ply --reference torus.off --certify 0.7", "triangles"),
         ("analyze torus.off --local", "--local is for --spectrum and --plot"),
+        ("analyze torus.off --local --plot p.svg", "of a mesh --plot alone"),
         ("sample torus.off --spacing=-1 -o p.csv", "positive"),
         ("analyze torus.off --certify 0.1", "0.5 or more"),
     ] {

@@ -141,6 +141,9 @@ fn analyze_mesh(
     of_reference: Vec<String>,
 ) -> anyhow::Result<u8> {
     let path = &args.inputs[0];
+    if args.local && !args.spectrum {
+        bail!("--local is for --spectrum; of a mesh --plot alone shows its triangles");
+    }
     let beta = args.certify.unwrap_or(BETA);
     if !(beta >= 0.5 && beta.is_finite()) {
         bail!("--certify is {beta}; it must be 0.5 or more, and finite");

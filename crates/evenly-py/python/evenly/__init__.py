@@ -25,8 +25,9 @@ from evenly._measures import (
 from evenly._meshes import Mesh, MeshQuality, mesh
 from evenly._points import Points, generate, optimize
 from evenly._spaces import Polygon, Rectangle, Torus
+from evenly._spectra import SurfaceSpectrum, surface_spectrum
 from evenly._stipples import Layer, Stippling, stipple
-from evenly._surfaces import SurfaceDistance, SurfaceMesh, SurfacePoints, SurfaceQuality, SurfaceSpectrum, remesh, sample, surface_spectrum
+from evenly._surfaces import SurfaceDistance, SurfaceMesh, SurfacePoints, SurfaceQuality, remesh, sample
 
 __version__ = _evenly.__version__
 

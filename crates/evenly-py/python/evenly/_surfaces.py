@@ -13,6 +13,7 @@ from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._seeds import Seed, number
+from evenly._shapes import native
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -125,31 +126,6 @@ class SurfacePoints(Frozen):
 
     def __repr__(self) -> str:
         return f"<{len(self)} points on a surface>"
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class SurfaceSpectrum(Frozen):
-    """What `surface_spectrum` finds, by ways along the surface."""
-
-    min_distance: float
-    """Smallest distance of two points, relative to the spacing of a hexagonal lattice with as many."""
-    mean_distance: float
-    """Mean distance to the nearest point, relative to the same."""
-    frequencies: Floats
-    """In inverse mean spacings."""
-    power: Floats
-    """Mean power at each; 1 for white noise."""
-    distances: Floats
-    """In mean spacings ``sqrt(A / n)``."""
-    correlation: Floats
-    """How many pairs there are at each distance, relative to white noise on the same surface."""
-    effective_nyquist: float
-    """Up to here there is next to no power (Heck, Schlömer and Deussen 2013)."""
-    oscillation: float
-    """How strongly the power swings beyond."""
-
-    def __repr__(self) -> str:
-        return f"<spectrum on a surface, effective Nyquist {self.effective_nyquist:.3f}, oscillation {self.oscillation:.3f}>"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -333,8 +309,8 @@ def remesh(
             notes=tuple(said["notes"]),
         )
 
-    native = _native(shape)
-    return run(lambda: _evenly.remesh(native, options, sizes, begin, threads_of(threads), told(callback)), build)
+    mesh = native(shape)
+    return run(lambda: _evenly.remesh(mesh, options, sizes, begin, threads_of(threads), told(callback)), build)
 
 
 def sample(
@@ -405,68 +381,8 @@ def sample(
             notes=tuple(said["notes"]),
         )
 
-    native = _native(shape)
-    return run(lambda: _evenly.sample(native, options, threads_of(threads), told(callback)), build)
-
-
-def surface_spectrum(
-    points: "ArrayLike",
-    shape: object,
-    *,
-    local: bool = False,
-    repair: bool = False,
-    threads: int | None = None,
-) -> SurfaceSpectrum:
-    """Tell how points are spread over a triangle mesh, by differential domain analysis (Wei and Wang 2011).
-
-    Parameters
-    ----------
-    points : array_like of shape (n, 3)
-        On the mesh, or near it; 100 or more.
-    shape : mesh, file, or pair of arrays
-        See `remesh`.
-    local : bool
-        Take each point's distances in its own spacing, where the density varies.
-    repair : bool
-        Mend the mesh, as in `remesh`.
-    threads : int, optional
-        All by default; the result does not depend on it.
-
-    Returns
-    -------
-    SurfaceSpectrum
-        The smallest and the mean distance, the pair correlation, and the power that belongs to it.
-
-    Raises
-    ------
-    ValueError
-        For too few points, and meshes that make no surface.
-
-    Examples
-    --------
-    >>> import evenly
-    >>> vertices = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-    >>> triangles = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (1, 0, 5), (2, 1, 5), (3, 2, 5), (0, 3, 5)]
-    >>> points = evenly.sample((vertices, triangles), 1000)
-    >>> evenly.surface_spectrum(points, (vertices, triangles)).effective_nyquist > 0.8
-    True
-    """
-    places, native = rows(points, "points", 3), _native(shape)
-
-    def build(answer: tuple[tuple[float, float], tuple[Floats, Floats, Floats, Floats, float, float]]) -> SurfaceSpectrum:
-        (smallest, mean), (frequencies, power, distances, correlation, nyquist, oscillation) = answer
-        return SurfaceSpectrum(
-            min_distance=smallest,
-            mean_distance=mean,
-            frequencies=frozen(frequencies),
-            power=frozen(power),
-            distances=frozen(distances),
-            correlation=frozen(correlation),
-            effective_nyquist=nyquist,
-            oscillation=oscillation,
-        )
-
-    return run(lambda: _evenly.surface_spectrum(native, places, bool(local), bool(repair), threads_of(threads)), build)
+    mesh = native(shape)
+    return run(lambda: _evenly.sample(mesh, options, threads_of(threads), told(callback)), build)
 
 
 def _read(kind: Any, said: dict[str, Any]) -> Any:
@@ -479,27 +395,3 @@ def _sizes(density: object) -> list[float]:
     if array.ndim != 1 or array.dtype.kind not in "fiu":
         raise ValueError(f"density must be a name, or one number for each vertex, not an array of shape {array.shape}")
     return [float(size) for size in array]
-
-
-def _native(shape: Any) -> "str | tuple[Floats, NDArray[np.int64]]":
-    """Return a path, or vertices and triangles."""
-    if isinstance(shape, (str, os.PathLike)):
-        return os.fspath(shape)
-    if isinstance(shape, (tuple, list)) and len(shape) == 2:
-        vertices, triangles = shape
-    elif hasattr(shape, "cells_dict"):
-        vertices, triangles = shape.points, shape.cells_dict.get("triangle", ())
-    elif hasattr(shape, "regular_faces"):
-        vertices, triangles = shape.points, shape.regular_faces
-    elif hasattr(shape, "vertices") and (hasattr(shape, "faces") or hasattr(shape, "triangles")):
-        vertices, triangles = shape.vertices, shape.faces if hasattr(shape, "faces") else shape.triangles
-    else:
-        raise TypeError(f"a mesh is needed: a path, vertices and triangles, or what has them, not {type(shape).__name__}")
-    return rows(vertices, "vertices", 3), _indices(triangles)
-
-
-def _indices(triangles: object) -> NDArray[np.int64]:
-    array = np.asarray(triangles)
-    if array.ndim != 2 or array.shape[1] != 3 or array.shape[0] == 0 or array.dtype.kind not in "iu":
-        raise ValueError(f"triangles must be whole numbers of shape (m, 3), not {array.dtype} of shape {array.shape}")
-    return np.ascontiguousarray(array, dtype=np.int64)

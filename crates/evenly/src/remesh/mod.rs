@@ -6,7 +6,8 @@
 //! What differs from the paper, and why:
 //! - There is no restricted Voronoi diagram, but one mesh over the points from the start to the end, whose edges are flipped where the angles across exceed pi. Its
 //!   topology is the surface's from the start, and stays.
-//! - The start is not a random set: long edges of the surface are split, and short ones collapsed, until the number is right.
+//! - The start is not a random set: long edges of the surface are split, and short ones collapsed, until the number is right. Given points, if there are any, come into the
+//!   surface's triangles as vertices, and all others are collapsed.
 //! - Points land on the nearest place to which a walk along the surface leads, never on another sheet; a move that would turn a triangle away from the surface is not made.
 //! - Creases and borders are kept: the points along them come first, and stay.
 //! - Where the wanted spacing varies it counts a triangle at a time, so that the bounds on angles hold as they do where it is uniform.
@@ -15,6 +16,7 @@
 
 mod anchors;
 mod chains;
+mod collapse;
 mod draft;
 mod eliminate;
 mod flips;
