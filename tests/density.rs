@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use densities::{blobs, hash, waves};
 use evenly::{
     CapacityParams, Density, DistMeshParams, LloydParams, Measures, Outcome, PointSet, ProcrustesParams, PushPullParams, Rectangle, Report,
-    RunContext, Space, Torus, WellSpacedParams, capacity, cvt, distmesh, eliminate, farthest_point, lloyd, measure, opt_beta,
+    RunContext, Space, Torus, WellSpacedParams, capacity, cvt, distmesh, eliminate, farthest_point, lloyd, measure, measure_each, opt_beta,
     poisson_disk_of_density, procrustes, push_pull, warp, warp_isotropic, well_spaced, white_by_density,
 };
 
@@ -234,4 +234,58 @@ fn methods_without_a_density_say_so() {
     assert!(cvt(&mut points, &evenly::CvtParams::default(), run).is_err());
     assert!(farthest_point(&mut points, &evenly::FarthestPointParams::default(), run).is_err());
     assert_eq!(points, before);
+}
+
+/// Half of the domain, a disk, a board of fields, a ring of single pixels with some that stand alone: triangles know nothing of black areas.
+#[test]
+fn procrustes_keeps_points_apart_at_the_edges_of_black_areas() {
+    let disk = |p: [f64; 2]| f64::from(u8::from((p[0] - 0.5).hypot(p[1] - 0.5) < 0.3));
+    let board = |p: [f64; 2]| f64::from(u8::from(((8.0 * p[0]) as usize + (8.0 * p[1]) as usize).is_multiple_of(2)));
+    let ring = |p: [f64; 2]| {
+        let is_alone = [0, 1].iter().all(|&axis| (p[axis] * 200.0) as usize % 25 == 0);
+        f64::from(u8::from(((p[0] - 0.5).hypot(p[1] - 0.5) - 0.35).abs() < 0.005)) + 0.5 * f64::from(u8::from(is_alone))
+    };
+    let pictures = [
+        Density::image(2, 1, &[0.0, 1.0]).unwrap(),
+        function(100, disk),
+        function(200, board),
+        function(200, ring),
+    ];
+    for (picture, density) in pictures.iter().enumerate() {
+        for (space, n, seed) in [(rectangle(), 200, 1), (torus(), 1000, 2), (rectangle(), 3000, 3)] {
+            let mut points = start(&space, density, n, seed);
+            let report = procrustes(&mut points, &ProcrustesParams::default(), &mut RunContext::default()).unwrap();
+            let nearest = measure_each(&points).unwrap().iter().map(|point| point.nearest).fold(f64::INFINITY, f64::min);
+            assert_eq!((points.n_points(), report.outcome), (n, Outcome::Converged), "{picture}, {n}: {:?}", report.notes);
+            assert!(nearest >= 0.4, "{picture}, {n}: {nearest}");
+        }
+    }
+}
+
+#[test]
+fn what_the_white_part_has_no_room_for_is_told() {
+    // A single pixel of ten thousand, and no other within reach.
+    let mut pixels = vec![0.0; 10_000];
+    (pixels[5050], pixels[150]) = (1.0, 1e-3);
+    let density = Density::image(100, 100, &pixels).unwrap();
+    let mut points = start(&rectangle(), &density, 7, 1);
+    let report = procrustes(&mut points, &ProcrustesParams::default(), &mut RunContext::default()).unwrap();
+    assert!(report.outcome == Outcome::Converged || report.notes.iter().any(|note| note.contains("no room")), "{report:?}");
+}
+
+/// What each point adds is what all have together.
+#[test]
+fn the_measures_of_each_point_are_those_of_all() {
+    for density in [Density::uniform(), five(64)[2].1.clone()] {
+        for space in [torus(), rectangle()] {
+            let points = white_by_density(&space, &density, 700, 4).unwrap();
+            let (all, each) = (measure(&points).unwrap(), measure_each(&points).unwrap());
+            assert_eq!(each.len(), 700);
+            let nearest = each.iter().map(|point| point.nearest).fold(f64::INFINITY, f64::min);
+            let reach = each.iter().map(|point| point.reach).fold(0.0, f64::max);
+            let deviation = each.iter().map(|point| (point.capacity - 1.0).abs()).fold(0.0, f64::max);
+            assert_eq!([nearest, reach, deviation], [all.min_distance, all.coverage_radius, all.capacity_max_deviation]);
+            assert!((each.iter().map(|point| point.capacity).sum::<f64>() / 700.0 - 1.0).abs() < 1e-6);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! What is done before and after an optimiser, whatever it is: points are evened out first where that suits it, and what came in is kept where it was nearer to the targets.
 
-use evenly::{Outcome, PointSet, Report, measure, warp_isotropic};
+use evenly::{Outcome, PointSet, Report, warp_isotropic};
 
 use crate::optimizer::Optimizer;
 
@@ -15,13 +15,10 @@ pub fn warp_for(points: &PointSet, optimizer: &dyn Optimizer, is_wanted: bool) -
 /// Said where the points that came in are kept.
 pub const KEPT: &str = "the points that came in miss the targets by less, and are written";
 
-/// Whether points that came in miss the targets by less than what a run has made of them.
+/// Whether points that came in miss the targets by less than what a run has made of them, all points taken together.
 pub fn is_nearer(start: &PointSet, made: &PointSet, report: &Report, optimizer: &dyn Optimizer) -> bool {
-    let Some(targets) = optimizer.targets().filter(|_| report.outcome != Outcome::Converged && made.density().is_uniform()) else {
-        return false;
-    };
-    let miss = |points: &PointSet| measure(points).map_or(f64::INFINITY, |measures| targets.worst_miss(&measures));
-    miss(start) < miss(made)
+    let targets = optimizer.targets().filter(|_| report.outcome != Outcome::Converged);
+    targets.is_some_and(|targets| targets.total_miss(start) < targets.total_miss(made))
 }
 
 /// What the user should know of a run.

@@ -100,7 +100,7 @@ impl<'a> Session<'a> {
         if let Some(warp) = warp {
             self.time("warp", || warp(&mut points));
         }
-        if let Some(advice) = optimizer.targets().and_then(|targets| targets.advice(points.space())) {
+        if let Some(advice) = optimizer.targets().and_then(|targets| targets.advice(&points)) {
             self.note(advice);
         }
         interrupt::cancels(&self.cancel, self.args.quiet)?;

@@ -114,7 +114,7 @@ fn improved(mut points: PointSet, optimizer: &dyn Optimizer, is_warped: bool, ru
     if let Some(warp) = warp {
         warp(&mut points);
     }
-    let advice = optimizer.targets().and_then(|targets| targets.advice(points.space()));
+    let advice = optimizer.targets().and_then(|targets| targets.advice(&points));
     let report = optimizer.run(&mut points, run)?;
     let mut notes: Vec<String> = advice.into_iter().chain(notes(&report)).collect();
     if report.outcome == Outcome::Cancelled {

@@ -85,6 +85,11 @@ impl<'a> RunContext<'a> {
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }
+
+    /// For a part of a run that shows no progress of its own; cancelled as this one is.
+    pub(crate) fn silent(&self) -> RunContext<'static> {
+        RunContext::default().with_cancel(self.cancel.clone())
+    }
 }
 
 /// How a run ended.

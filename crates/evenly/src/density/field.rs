@@ -66,6 +66,11 @@ impl Field {
         field
     }
 
+    /// Whether there are places without any density.
+    pub fn has_gaps(&self) -> bool {
+        self.raster.has_zeros
+    }
+
     /// The density at a place.
     #[inline]
     pub fn at(&self, place: DVec2) -> f64 {
@@ -276,6 +281,18 @@ impl Field {
         let sum: f64 =
             self.rows(low.y, high.y).map(|(row, part)| part * (self.raster.up_to(high.x, row) - self.raster.up_to(low.x, row))).sum();
         sum * self.scale / (self.resolution.x * self.resolution.y)
+    }
+
+    /// The area of the places in a box of the domain that have some density.
+    pub fn area_with_some(&self, low: DVec2, high: DVec2) -> f64 {
+        let (low, high) = (low * self.resolution, high * self.resolution);
+        let columns = (low.x as usize).min(self.raster.columns - 1)..(high.x.ceil() as usize).min(self.raster.columns);
+        let width = |column: usize| (high.x.min(column as f64 + 1.0) - low.x.max(column as f64)).max(0.0);
+        let in_row = |row: usize| -> f64 {
+            columns.clone().filter(|&column| self.raster.value(column, row) > 0.0).map(width).sum()
+        };
+        let pixels: f64 = self.rows(low.y, high.y).map(|(row, part)| part * in_row(row)).sum();
+        pixels / (self.resolution.x * self.resolution.y)
     }
 
     /// The rows between two heights, in pixels, and how much of each.

@@ -5,13 +5,14 @@ use glam::DVec2;
 use super::field::Field;
 use crate::space::Domain;
 
-/// The root of a density's mean over square cells, interpolated between their middles.
+/// The root of a density's mean over square cells, interpolated between their middles. Places without any density do not count.
 pub(crate) struct SoftField {
     columns: usize,
     rows: usize,
     is_periodic: bool,
     /// Cells to a unit along each axis.
     resolution: DVec2,
+    /// 0 in a cell without any density.
     roots: Vec<f32>,
 }
 
@@ -24,7 +25,8 @@ impl SoftField {
         let low = |column: usize, row: usize| DVec2::new(column as f64, row as f64) * size;
         let root = |column: usize, row: usize| {
             let low = low(column, row);
-            (field.mass_in(low, low + size) / (size.x * size.y)).max(0.0).sqrt() as f32
+            let area = if field.has_gaps() { field.area_with_some(low, low + size) } else { size.x * size.y };
+            if area > 0.0 { (field.mass_in(low, low + size) / area).max(0.0).sqrt() as f32 } else { 0.0 }
         };
         let roots =
             (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))).map(|(column, row)| root(column, row)).collect();
@@ -39,11 +41,17 @@ impl SoftField {
         let [x, y] = (q - floor).to_array();
         let columns = self.pair(floor.x as i64, self.columns);
         let rows = self.pair(floor.y as i64, self.rows);
-        let along = |row: usize| {
-            let at = |column: usize| f64::from(self.roots[column + row * self.columns]);
-            at(columns[0]) + x * (at(columns[1]) - at(columns[0]))
-        };
-        along(rows[0]) + y * (along(rows[1]) - along(rows[0]))
+        let at = |column: usize, row: usize| f64::from(self.roots[column + row * self.columns]);
+        let corners = rows.map(|row| columns.map(|column| at(column, row)));
+        if corners.iter().flatten().all(|&root| root > 0.0) {
+            let [below, above] = corners.map(|[left, right]| left + x * (right - left));
+            return below + y * (above - below);
+        }
+        // Beside a gap the cells with some density alone tell.
+        let weights = [[(1.0 - x) * (1.0 - y), x * (1.0 - y)], [(1.0 - x) * y, x * y]];
+        let known = corners.iter().flatten().zip(weights.iter().flatten()).filter(|(root, _)| **root > 0.0);
+        let (sum, weight) = known.fold((0.0, 0.0), |(sum, weight), (root, share)| (sum + root * share, weight + share));
+        if weight > 0.0 { sum / weight } else { 0.0 }
     }
 
     /// A cell along an axis, and the next.

@@ -13,6 +13,8 @@ pub(super) struct Distinct {
     pub coincident_points: usize,
     /// Whether more than one point takes a vertex's place.
     pub is_shared: Vec<bool>,
+    /// The vertex that takes each point's place.
+    pub vertex_of: Vec<u32>,
 }
 
 impl Distinct {
@@ -22,6 +24,10 @@ impl Distinct {
         let order = hilbert_order(&positions, domain.size);
         let mut sorted: Vec<(DVec2, u32)> = order.iter().map(|&i| (positions[i as usize], i)).collect();
         let is_shared = sorted.chunk_by(|a, b| a.0 == b.0).map(|place| place.len() > 1).collect();
+        let mut vertex_of = vec![0; positions.len()];
+        for (vertex, place) in (0..).zip(sorted.chunk_by(|a, b| a.0 == b.0)) {
+            place.iter().for_each(|&(_, point)| vertex_of[point as usize] = vertex);
+        }
         sorted.dedup_by_key(|(p, _)| *p);
         if sorted.len() < 3 {
             let text = format!("{} distinct points make no triangulation; measures need three", sorted.len());
@@ -30,6 +36,6 @@ impl Distinct {
         let coincident_points = positions.len() - sorted.len();
         let (sorted, order) = sorted.into_iter().unzip();
         let triangulation = delaunay(&domain, sorted, order)?;
-        Ok(Self { triangulation, coincident_points, is_shared })
+        Ok(Self { triangulation, coincident_points, is_shared, vertex_of })
     }
 }

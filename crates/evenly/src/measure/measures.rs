@@ -6,10 +6,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::distinct::Distinct;
+use super::each::PointMeasures;
 use super::sight::{Seen, look};
 use super::star::{StarMeasures, StarReader};
 use super::triangles;
-use super::weighted::{Weighted, density_error, weigh};
+use super::weighted::{density_error, weigh};
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::triangulation::Triangulation;
@@ -127,7 +128,7 @@ const HEXAGON: f64 = 0.160_375_074_774_976_5;
 /// # Errors
 /// [`Error::Degenerate`] for fewer points, or where a rectangle's points all lie on one line.
 pub fn measure(points: &PointSet) -> Result<Measures, Error> {
-    let Distinct { triangulation, coincident_points, is_shared } = Distinct::triangulate(points)?;
+    let Distinct { triangulation, coincident_points, is_shared, .. } = Distinct::triangulate(points)?;
     let n_distinct = triangulation.n_base();
     let domain = triangulation.domain.uncovered(triangulation.copies);
     let mean_capacity = domain.area() / n_distinct as f64;
@@ -236,13 +237,15 @@ impl Sums {
     }
 
     /// Takes what is measured in a density's own measure instead.
-    fn take(&mut self, weighted: &Weighted, spacing: f64, is_shared: &[bool]) {
-        self.min_distance = weighted.min_distance * spacing;
-        let alone = weighted.distances.iter().zip(is_shared).filter(|(_, is_shared)| !**is_shared);
-        self.distance = alone.map(|(distance, _)| distance * spacing).sum();
-        self.reach = weighted.coverage_radius * spacing;
-        (self.capacity_squares, self.capacity_deviation) = (weighted.capacity_squares, weighted.capacity_deviation);
-        self.inner_capacity_deviation = weighted.inner_capacity_deviation;
+    fn take(&mut self, weighted: &[PointMeasures], spacing: f64, is_shared: &[bool]) {
+        let deviations = || weighted.iter().map(|point| point.capacity - 1.0);
+        self.min_distance = weighted.iter().map(|point| point.nearest).fold(f64::INFINITY, f64::min) * spacing;
+        self.distance = weighted.iter().zip(is_shared).filter(|(_, is_shared)| !**is_shared).map(|(point, _)| point.nearest * spacing).sum();
+        self.reach = weighted.iter().map(|point| point.reach).fold(0.0, f64::max) * spacing;
+        self.capacity_squares = deviations().map(|deviation| deviation * deviation).sum();
+        self.capacity_deviation = deviations().map(f64::abs).fold(0.0, f64::max);
+        let inner = deviations().zip(weighted).filter(|(_, point)| point.is_inner);
+        self.inner_capacity_deviation = inner.map(|(deviation, _)| deviation.abs()).fold(0.0, f64::max);
     }
 
     fn merge(&mut self, other: &Self) {

@@ -4,6 +4,7 @@ mod bessel;
 mod correlation;
 mod differential;
 mod distinct;
+mod each;
 mod measures;
 mod power;
 mod radial;
@@ -17,6 +18,7 @@ mod voronoi;
 mod weighted;
 
 pub(crate) use correlation::{BINS, level};
+pub use each::{PointMeasures, measure_each};
 pub use differential::{differential_spectrum, local_spacings};
 pub use measures::{BorderMeasures, Measures, measure};
 pub use power::{PowerSpectrum, power_spectrum};

@@ -2,47 +2,31 @@
 
 use glam::DVec2;
 
+use super::each::PointMeasures;
 use crate::density::Field;
 use crate::error::Error;
 use crate::space::Domain;
 use crate::star::Senses;
 use crate::triangulation::{LiveMesh, StarBuffer};
 
-/// The measures of uniform sets that mean something else here. Lengths in spacings, masses relative to the mean.
-pub(super) struct Weighted {
-    pub min_distance: f64,
-    /// Of each point, to the nearest other.
-    pub distances: Vec<f64>,
-    pub coverage_radius: f64,
-    pub capacity_squares: f64,
-    pub capacity_deviation: f64,
-    /// Of the cells that stay clear of a polygon's border.
-    pub inner_capacity_deviation: f64,
-}
-
 /// Measures distinct points, given in Hilbert order.
-pub(super) fn weigh(domain: &Domain, field: &Field, positions: &[DVec2], spacing: f64) -> Result<Weighted, Error> {
+pub(super) fn weigh(domain: &Domain, field: &Field, positions: &[DVec2], spacing: f64) -> Result<Vec<PointMeasures>, Error> {
     let n_points = positions.len();
     let order = (0..n_points as u32).collect();
     let mut mesh = LiveMesh::new(domain, Some(field.clone()), positions.to_vec(), order, spacing)?;
     let unit = spacing * spacing * n_points as f64 / domain.area();
-    let seen = mesh.look(
+    mesh.look(
         Senses { lengths: Some(f64::INFINITY), radii: Some(0.0), mass: true, ..Senses::default() },
         |_, _, StarBuffer { star, sight, .. }| {
             let others = (0..star.n_spokes()).filter(|&k| !star.is_mirror[k]);
-            let nearest = others.map(|k| star.lengths[k] * star.stretch(k)).fold(f64::INFINITY, f64::min);
-            let reach = (0..star.n_spokes()).map(|k| star.weighted_radius(k)).fold(0.0, f64::max);
-            (nearest, reach, star.metric.mass.unwrap_or(0.0) * unit - 1.0, sight.outline.is_empty())
+            PointMeasures {
+                nearest: others.map(|k| star.lengths[k] * star.stretch(k)).fold(f64::INFINITY, f64::min),
+                reach: (0..star.n_spokes()).map(|k| star.weighted_radius(k)).fold(0.0, f64::max),
+                capacity: star.metric.mass.unwrap_or(0.0) * unit,
+                is_inner: sight.outline.is_empty(),
+            }
         },
-    )?;
-    Ok(Weighted {
-        min_distance: seen.iter().map(|star| star.0).fold(f64::INFINITY, f64::min),
-        coverage_radius: seen.iter().map(|star| star.1).fold(0.0, f64::max),
-        capacity_squares: seen.iter().map(|star| star.2 * star.2).sum(),
-        capacity_deviation: seen.iter().map(|star| star.2.abs()).fold(0.0, f64::max),
-        inner_capacity_deviation: seen.iter().filter(|star| star.3).map(|star| star.2.abs()).fold(0.0, f64::max),
-        distances: seen.into_iter().map(|star| star.0).collect(),
-    })
+    )
 }
 
 /// Points that a cell is to hold.

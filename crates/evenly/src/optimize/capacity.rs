@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::push_pull::{PushPullParams, push_and_pull};
 use super::targets::{Targets, UnmetTarget};
 use crate::error::Error;
-use crate::measure::Measures;
+use crate::measure::{Measures, PointMeasures};
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
 
@@ -57,8 +57,8 @@ impl Targets for CapacityParams {
         self.targets().unmet(measures)
     }
 
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        self.targets().worst_miss(measures)
+    fn miss(&self, point: &PointMeasures) -> f64 {
+        self.targets().miss(point)
     }
 }
 

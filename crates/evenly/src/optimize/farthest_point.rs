@@ -16,9 +16,9 @@ use serde::Serialize;
 
 use self::gaps::Gaps;
 use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
-use super::targets::{ROUNDING, Targets, UnmetTarget, is_lost_to_rounding};
+use super::targets::{ROUNDING, Targets, UnmetTarget, is_lost_to_rounding, under};
 use crate::error::Error;
-use crate::measure::Measures;
+use crate::measure::{Measures, PointMeasures};
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 
@@ -75,8 +75,8 @@ impl Targets for FarthestPointParams {
         missed.map(|wanted| UnmetTarget { name: "min_distance", wanted, measured: measures.min_distance }).into_iter().collect()
     }
 
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        self.min_distance.map_or(0.0, |wanted| (1.0 - measures.min_distance / wanted).max(0.0))
+    fn miss(&self, point: &PointMeasures) -> f64 {
+        self.min_distance.map_or(0.0, |wanted| under(point.nearest, wanted))
     }
 }
 

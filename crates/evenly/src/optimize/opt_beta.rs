@@ -21,7 +21,7 @@ use self::nelder_mead::minimize;
 use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
 use super::targets::{Targets, UnmetTarget, beta_miss, is_lost_to_rounding, unmet_beta, validate_beta};
 use crate::error::Error;
-use crate::measure::Measures;
+use crate::measure::{Measures, PointMeasures};
 use crate::points::PointSet;
 use crate::run::{Outcome, Report, RunContext};
 use crate::star::{Rule, Star};
@@ -78,8 +78,8 @@ impl Targets for OptBetaParams {
         unmet_beta(self.beta, measures)
     }
 
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        beta_miss(self.beta, measures)
+    fn miss(&self, point: &PointMeasures) -> f64 {
+        beta_miss(self.beta, point)
     }
 }
 

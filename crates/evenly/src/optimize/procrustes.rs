@@ -19,6 +19,7 @@
 
 mod border;
 mod flips;
+mod gaps;
 mod mesh;
 mod model;
 
@@ -28,7 +29,7 @@ use self::border::Rim;
 use self::mesh::Mesh;
 use self::model::Sides;
 use super::prepare::{Prepared, keep_distinct, prepare};
-use crate::density::SoftField;
+use crate::density::{Field, SoftField};
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
@@ -131,8 +132,8 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     let mut triangulation = delaunay(&domain, positions, order)?;
     report.triangulations = 1;
     let n_fixed = points.n_fixed();
-    let rim = Rim::of(&domain, points.n_points());
-    if rim != Rim::Polygon && !domain.is_periodic && border::is_narrow(domain.size, spacing) {
+    let rim = Rim::of(&domain, field.as_ref().is_some_and(Field::has_gaps), points.n_points());
+    if rim == Rim::Walls && border::is_narrow(domain.size, spacing) {
         report.notes.push("the rectangle is less than three spacings wide: it is nearly all border, and points are less even there".into());
     }
     if rim != Rim::None {
@@ -143,7 +144,8 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     let sides = Sides {
         mean: params.side * spacing,
         longest: LARGEST_SIDE * spacing,
-        field: field.map(|field| SoftField::new(&field, &domain, SOFTNESS * spacing)),
+        field: field.as_ref().map(|field| SoftField::new(field, &domain, SOFTNESS * spacing)),
+        gaps: field.filter(Field::has_gaps),
     };
     let mut mesh = Mesh::new(triangulation, sides, n_fixed);
 
@@ -200,6 +202,9 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     points.place(&domain, &order, &positions);
     if rim == Rim::Polygon {
         keep_distinct(points);
+    }
+    if !points.density().is_uniform() {
+        gaps::part(points, run, &mut report)?;
     }
     Ok(report)
 }

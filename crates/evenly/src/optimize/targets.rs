@@ -3,20 +3,28 @@
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::measure::{Measures, measure};
+use crate::measure::{Measures, PointMeasures, measure, measure_each};
 use crate::points::PointSet;
-use crate::space::Space;
 
 /// What a method was asked to reach.
 pub trait Targets: Sync {
-    /// The targets that points with these measures do not reach, by more than a millionth.
+    /// The targets that points with these measures do not reach, by more than rounding.
     fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget>;
 
-    /// By how much these measures miss the target that they miss most, relative to it, a capacity relative to the mean; 0 where all are met.
-    fn worst_miss(&self, measures: &Measures) -> f64;
+    /// By how much one point misses the targets: for each of them relative to it, for a capacity relative to the mean, and 0 where it is met; summed. What has no target does not count.
+    fn miss(&self, point: &PointMeasures) -> f64;
 
-    /// What to expect of targets that are tougher than those that are known to be reached in this domain.
-    fn advice(&self, _space: &Space) -> Option<String> {
+    /// By how much all points miss the targets, summed; 0 where all targets are met, infinite where points cannot be measured.
+    fn total_miss(&self, points: &PointSet) -> f64 {
+        match (measure(points), measure_each(points)) {
+            (Ok(measures), Ok(_)) if self.unmet(&measures).is_empty() => 0.0,
+            (Ok(_), Ok(each)) => each.iter().map(|point| self.miss(point)).sum(),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// What to expect of targets that are tougher than those that are known to be reached by points like these.
+    fn advice(&self, _points: &PointSet) -> Option<String> {
         None
     }
 }
@@ -58,7 +66,17 @@ pub(super) fn unmet_beta(wanted: f64, measures: &Measures) -> Vec<UnmetTarget> {
     if is_met { Vec::new() } else { vec![UnmetTarget { name: "beta", wanted, measured: measures.beta }] }
 }
 
-/// By how much these measures miss the ratio, relative to it.
-pub(super) fn beta_miss(wanted: f64, measures: &Measures) -> f64 {
-    (measures.beta / wanted - 1.0).max(0.0)
+/// By how much a point misses the ratio by itself, relative to it.
+pub(super) fn beta_miss(wanted: f64, point: &PointMeasures) -> f64 {
+    over(point.reach / point.nearest, wanted)
+}
+
+/// By how much a measure is above its target, relative to that.
+pub(super) fn over(measured: f64, most: f64) -> f64 {
+    (measured / most - 1.0).max(0.0)
+}
+
+/// By how much a measure is below its target, relative to that.
+pub(super) fn under(measured: f64, least: f64) -> f64 {
+    (1.0 - measured / least).max(0.0)
 }

@@ -14,12 +14,11 @@
 use serde::Serialize;
 
 use super::push_pull::{PushPullParams, push_and_pull};
-use super::targets::{Targets, UnmetTarget, beta_miss, unmet_beta, validate_beta};
+use super::targets::{Targets, UnmetTarget, unmet_beta, validate_beta};
 use crate::error::Error;
-use crate::measure::{Measures, measure};
+use crate::measure::{Measures, PointMeasures, measure};
 use crate::points::PointSet;
 use crate::run::{Outcome, Report, RunContext};
-use crate::space::Space;
 
 /// What [`well_spaced`] can be told.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -95,12 +94,13 @@ impl Targets for WellSpacedParams {
         unmet_beta(self.beta, measures)
     }
 
-    fn worst_miss(&self, measures: &Measures) -> f64 {
-        beta_miss(self.beta, measures)
+    fn miss(&self, point: &PointMeasures) -> f64 {
+        // Areas are made alike on the way, and are no target.
+        PushPullParams { capacity_tolerance: None, ..self.targets() }.miss(point)
     }
 
-    fn advice(&self, space: &Space) -> Option<String> {
-        let known = KNOWN[usize::from(!space.is_periodic())];
+    fn advice(&self, points: &PointSet) -> Option<String> {
+        let known = KNOWN[usize::from(!points.space().is_periodic())];
         let text = || format!("beta {} is not known to be reached here, and the run may be long; {known} is", self.beta);
         (self.beta < known).then(text)
     }
@@ -135,7 +135,7 @@ pub fn angle_bounds_deg(beta: f64) -> Option<[f64; 2]> {
 pub fn well_spaced(points: &mut PointSet, params: &WellSpacedParams, run: &mut RunContext) -> Result<Report, Error> {
     params.validate()?;
     let mut report = Report::new("well-spaced", points.n_points());
-    report.notes.extend(params.advice(points.space()));
+    report.notes.extend(params.advice(points));
     push_and_pull(points, &params.targets(), run, &mut report)?;
     // The ratio may be met though the distance and the radius are not.
     let has_missed = matches!(report.outcome, Outcome::IterationLimit | Outcome::LostToRounding);

@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::ground::{Buffer, Ground, Reading, Way};
-use crate::star::Rule;
-use crate::triangulation::{MIRROR, Outside, Territory};
+use crate::star::{Rule, Star};
+use crate::triangulation::{MIRROR, Outside, Spoke, Territory};
 
 /// Moves below this, in local spacings, are not worth making.
 const STILL: f64 = 1e-9;
@@ -14,6 +14,10 @@ const LONGEST: f64 = 1.0;
 const LONGEST_PUSH: f64 = 0.5;
 /// The part of its distance by which a neighbour may come nearer in one move: it does not run into the vertex, or through it.
 const NEARER: f64 = 0.75;
+/// The share of a pull between a vertex and its image behind a wall that the vertex makes, and the share by which the neighbours at the same wall follow it. Behind the wall stand the images of all
+/// points, and each pulls as its point does: without them a set under tension comes off its walls.
+const TO_WALL: f64 = 0.75;
+const ALONG_TO_WALL: f64 = 0.15;
 
 /// The moves that a rule has asked for, in local spacings.
 #[derive(Debug, Clone, Copy, Default)]
@@ -107,6 +111,7 @@ pub(super) fn ask<G: Ground, R: Rule>(mesh: &G, rule: &R, v: u32, territory: Ter
     // Where points are dense, the same way means more.
     let scale = star.metric.scale;
     let longest = LONGEST / scale;
+    let mut is_pulled_to_wall = false;
     for (spoke, &length) in spokes.iter().zip(&star.lengths) {
         if length == spoke.length || spoke.is_echo {
             continue;
@@ -124,11 +129,15 @@ pub(super) fn ask<G: Ground, R: Rule>(mesh: &G, rule: &R, v: u32, territory: Ter
         }
         unrest.add_move(change.abs() * scale);
         if spoke.vertex == MIRROR {
-            // The image goes as far as the vertex, to the other side.
-            own -= by * 0.5;
+            // The image comes nearer, and the vertex goes to meet it.
+            own -= by * TO_WALL;
+            is_pulled_to_wall |= change < 0.0;
         } else if point != v {
             moves.push((point, by));
         }
+    }
+    if is_pulled_to_wall {
+        follow_to_walls(mesh, star, spokes, moves);
     }
     let own = mesh.along(v, own);
     let own_length = own.length() / mesh.spacing() * scale;
@@ -141,4 +150,20 @@ pub(super) fn ask<G: Ground, R: Rule>(mesh: &G, rule: &R, v: u32, territory: Ter
         return Ok(Unrest::default());
     }
     Ok(unrest)
+}
+
+/// Lets the neighbours that meet a vertex at a wall, and are pulled as it is, come along to the wall.
+fn follow_to_walls<G: Ground>(mesh: &G, star: &Star, spokes: &[Spoke<G::Way>], moves: &mut Vec<(u32, G::Way)>) {
+    let n = spokes.len();
+    // The part of its distance by which a spoke's end is pulled nearer.
+    let pull = |k: usize| (1.0 - star.lengths[k] / spokes[k].length).clamp(0.0, NEARER);
+    for wall in (0..n).filter(|&k| spokes[k].vertex == MIRROR) {
+        for k in [(wall + n - 1) % n, (wall + 1) % n].into_iter().filter(|&k| spokes[k].vertex != MIRROR) {
+            let neighbour = mesh.point(spokes[k].vertex);
+            let by = mesh.along(neighbour, spokes[wall].way * (ALONG_TO_WALL * pull(wall).min(pull(k))));
+            if by != G::Way::default() {
+                moves.push((neighbour, by));
+            }
+        }
+    }
 }

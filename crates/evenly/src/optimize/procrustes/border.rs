@@ -35,6 +35,8 @@ pub(super) enum Rim {
     Walls,
     /// A polygon's, which stops points.
     Polygon,
+    /// That of places without any density, which stops them too.
+    Gaps,
 }
 
 /// Iterations after which a rectangle's triangulation is built anew, while border points find their place.
@@ -45,9 +47,10 @@ const LAST_CUT: usize = 60;
 const LATER_CUT: usize = 30;
 
 impl Rim {
-    pub fn of(domain: &Domain, n_points: usize) -> Self {
+    pub fn of(domain: &Domain, has_gaps: bool, n_points: usize) -> Self {
         match () {
             () if domain.border.is_some() => Self::Polygon,
+            () if has_gaps => Self::Gaps,
             () if domain.is_periodic || n_points < FEWEST => Self::None,
             () => Self::Walls,
         }
@@ -56,7 +59,7 @@ impl Rim {
     /// Makes the triangulation one that ends at the border.
     pub fn settle(self, triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
         match self {
-            Self::None => Ok(triangulation),
+            Self::None | Self::Gaps => Ok(triangulation),
             Self::Walls => settle(triangulation, n_fixed, spacing),
             Self::Polygon => cut_out(triangulation, n_fixed, spacing),
         }
@@ -67,14 +70,22 @@ impl Rim {
         match self {
             Self::None => false,
             Self::Walls => REBUILDS.contains(&iteration),
-            Self::Polygon => iteration.is_multiple_of(if iteration <= LAST_CUT { CUT } else { LATER_CUT }),
+            Self::Polygon | Self::Gaps => iteration.is_multiple_of(if iteration <= LAST_CUT { CUT } else { LATER_CUT }),
         }
     }
 
     /// Builds the triangulation anew.
-    pub fn resettle(self, triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
+    pub fn resettle(self, mut triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
         match self {
             Self::Walls => resettle(triangulation, n_fixed, spacing),
+            Self::Gaps if triangulation.domain.is_periodic => {
+                triangulation.legalize();
+                Ok(triangulation)
+            }
+            Self::Gaps => {
+                let Triangulation { positions, domain, order, .. } = triangulation;
+                delaunay(&domain, positions, order)
+            }
             _ => self.settle(triangulation, n_fixed, spacing),
         }
     }
@@ -84,7 +95,7 @@ impl Rim {
         match self {
             Self::None => true,
             Self::Walls => REBUILDS.iter().all(|&at| at < iteration),
-            Self::Polygon => iteration > LAST_CUT,
+            Self::Polygon | Self::Gaps => iteration > LAST_CUT,
         }
     }
 }

@@ -72,9 +72,9 @@ impl Mesh {
         mesh
     }
 
-    /// Proves what the triangulation claims to be. Around points that stay its border need not be convex, nor in a polygon.
+    /// Proves what the triangulation claims to be. Around points that stay its border need not be convex, nor in a polygon, nor where gaps stop points.
     fn check(&self) -> Result<(), String> {
-        let is_rough = self.n_fixed > 0 || self.triangulation.domain.border.is_some();
+        let is_rough = self.n_fixed > 0 || self.triangulation.domain.border.is_some() || self.sides.gaps.is_some();
         if is_rough { self.triangulation.check_bounded() } else { self.triangulation.check() }
     }
 
@@ -113,7 +113,11 @@ impl Mesh {
                     let at = |v: u32| positions[v as usize];
                     let u = domain.spoke(at(t[0]), at(t[1]));
                     let v = domain.spoke(at(t[0]), at(t[2]));
-                    let side = sides.at(at(t[0]) + (u + v) / 3.0);
+                    let centroid = at(t[0]) + (u + v) / 3.0;
+                    if sides.is_gap(centroid) {
+                        continue;
+                    }
+                    let side = sides.at(centroid);
                     energy += triangle_energy(a, u.perp_dot(v), side);
                     for (&vertex, way) in t.iter().zip(ways_to_targets(u, v, a, side)) {
                         match pulls.get_mut((vertex as usize).wrapping_sub(vertices.start)) {
@@ -152,13 +156,15 @@ impl Mesh {
     /// Step 2: moves each vertex to the mean of its targets, and by `momentum` of its last move beyond.
     pub fn move_vertices(&mut self, momentum: f64) {
         let Triangulation { positions, domain, order, copies, .. } = &mut self.triangulation;
+        let sides = &self.sides;
         (self.chunks.split_vertices(positions), self.chunks.split_vertices(&mut self.velocity))
             .into_par_iter()
             .zip(self.chunks.vertices())
             .for_each(|((positions, velocities), range)| {
                 for ((position, velocity), pull) in positions.iter_mut().zip(velocities).zip(&self.pulls[range.clone()]) {
                     let before = *position;
-                    *position = domain.walk(before, before + pull.sum / pull.n_targets.max(1.0) + momentum * *velocity);
+                    let by = pull.sum / pull.n_targets.max(1.0) + momentum * *velocity;
+                    *position = domain.walk(before, before + sides.out_of_gap(before, by));
                     *velocity = domain.spoke(before, *position);
                 }
             });

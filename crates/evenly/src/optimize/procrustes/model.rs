@@ -6,10 +6,13 @@
 
 use glam::DVec2;
 
-use crate::density::SoftField;
+use crate::density::{Field, SoftField};
 
 /// sqrt(3) / 2.
 pub(super) const H: f64 = 0.866_025_403_784_438_6;
+
+/// A way into a gap is halved so often.
+const HALVINGS: i32 = 8;
 
 /// The side of the model triangle: the same everywhere, or as long as the density wants it.
 pub(super) struct Sides {
@@ -18,6 +21,8 @@ pub(super) struct Sides {
     /// No side is longer than this.
     pub longest: f64,
     pub field: Option<SoftField>,
+    /// The density itself, where some of it is 0.
+    pub gaps: Option<Field>,
 }
 
 impl Sides {
@@ -25,6 +30,20 @@ impl Sides {
     #[inline]
     pub fn at(&self, place: DVec2) -> f64 {
         self.field.as_ref().map_or(self.mean, |field| (self.mean / field.root(place)).min(self.longest))
+    }
+
+    /// Whether no points are wanted at a place.
+    #[inline]
+    pub fn is_gap(&self, place: DVec2) -> bool {
+        self.gaps.as_ref().is_some_and(|field| field.at(place) == 0.0)
+    }
+
+    /// Where a point comes to that is to go from one place to another: there, or half as far, and so on, where that lies in a gap.
+    #[inline]
+    pub fn out_of_gap(&self, from: DVec2, by: DVec2) -> DVec2 {
+        let Some(field) = &self.gaps else { return by };
+        let parts = (0..HALVINGS).map(|k| by * 0.5f64.powi(k));
+        parts.into_iter().find(|&part| field.at(from + part) > 0.0).unwrap_or(DVec2::ZERO)
     }
 }
 

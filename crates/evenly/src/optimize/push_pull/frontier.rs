@@ -19,13 +19,29 @@ const ON_TORUS: [Row; 8] = [
     Row { radius: 0.75, strict: 0.94, loose: 0.96 },
 ];
 
-/// Along a wall cells of equal area leave larger gaps.
-const IN_RECTANGLE: [Row; 4] = [
+/// Along a wall cells of equal area leave larger gaps. In a domain at least [`WIDE`] spacings wide.
+const IN_RECTANGLE: [Row; 5] = [
     Row { radius: 0.64, strict: 0.00, loose: 0.90 },
-    Row { radius: 0.65, strict: 0.91, loose: 0.92 },
-    Row { radius: 0.67, strict: 0.92, loose: 0.92 },
-    Row { radius: 0.75, strict: 0.92, loose: 0.92 },
+    Row { radius: 0.65, strict: 0.90, loose: 0.94 },
+    Row { radius: 0.66, strict: 0.92, loose: 0.95 },
+    Row { radius: 0.70, strict: 0.92, loose: 0.95 },
+    Row { radius: 0.75, strict: 0.94, loose: 0.95 },
 ];
+
+/// The same where it is at least [`NARROW`] wide, from 300 points in a square.
+const IN_SMALL_RECTANGLE: [Row; 5] = [
+    Row { radius: 0.65, strict: 0.80, loose: 0.92 },
+    Row { radius: 0.66, strict: 0.85, loose: 0.94 },
+    Row { radius: 0.67, strict: 0.92, loose: 0.94 },
+    Row { radius: 0.70, strict: 0.92, loose: 0.95 },
+    Row { radius: 0.75, strict: 0.94, loose: 0.95 },
+];
+
+/// Where next to all points stand at walls.
+const BETWEEN_WALLS: [Row; 1] = [Row { radius: 0.75, strict: 0.85, loose: 0.90 }];
+
+const WIDE: f64 = 24.0;
+const NARROW: f64 = 15.0;
 
 /// With summed moves, everywhere.
 const SUMMED: [Row; 1] = [Row { radius: 0.65, strict: 0.90, loose: 0.90 }];
@@ -35,7 +51,20 @@ const SUMMED: [Row; 1] = [Row { radius: 0.65, strict: 0.90, loose: 0.90 }];
 pub(super) enum Known {
     OnTorus,
     InRectangle,
+    InSmallRectangle,
+    BetweenWalls,
     Summed,
+}
+
+impl Known {
+    /// In a rectangle or polygon whose frame is so many spacings wide, or high if that is less.
+    pub fn within_walls(width: f64) -> Self {
+        match width {
+            _ if width >= WIDE => Self::InRectangle,
+            _ if width >= NARROW => Self::InSmallRectangle,
+            _ => Self::BetweenWalls,
+        }
+    }
 }
 
 /// The nearest distance and radius that are known to be reached, where these are tougher.
@@ -45,6 +74,8 @@ pub(super) fn nearest_known(distance: Option<f64>, radius: Option<f64>, toleranc
     let rows: &[Row] = match known {
         Known::OnTorus => &ON_TORUS,
         Known::InRectangle => &IN_RECTANGLE,
+        Known::InSmallRectangle => &IN_SMALL_RECTANGLE,
+        Known::BetweenWalls => &BETWEEN_WALLS,
         Known::Summed => &SUMMED,
     };
     let known = rows.iter().map(|row| (row.radius, if is_loose { row.loose } else { row.strict })).filter(|&(_, most)| most > 0.0);
