@@ -14,7 +14,7 @@ pub fn of_comparators() {
     for seed in 1..=4 {
         let start = poisson_disk_of(torus(), 10_000, seed).unwrap();
         let unit = delaunator(&start).as_secs_f64();
-        let params = OptBetaParams { beta: 0.578, ..OptBetaParams::default() };
+        let params = OptBetaParams { beta: Some(0.578), iterations: 200, ..OptBetaParams::default() };
         let run = one.install(|| timed(start, |_| (), |points, context| opt_beta(points, &params, context)));
         sweeps.push(run.report.energy.iter().position(|&beta| beta <= 0.85).map_or("never".into(), |n| n.to_string()));
         costs.push(run.iteration.as_secs_f64() / unit);

@@ -48,7 +48,7 @@ fn plain() {
 
 fn methods() {
     let all = [
-        ("Opt-beta", MeshMethod::OptBeta(OptBetaParams { beta: 0.75, ..OptBetaParams::default() })),
+        ("Opt-beta", MeshMethod::OptBeta(OptBetaParams { beta: Some(0.75), iterations: 200, ..OptBetaParams::default() })),
         ("Lloyd", MeshMethod::Lloyd(LloydParams::default())),
         ("DistMesh", MeshMethod::DistMesh(DistMeshParams::default())),
     ];
@@ -147,7 +147,7 @@ fn ratios() {
     type Method = fn(&mut PointSet, u64);
     let methods: [(&str, Method); 2] = [
         ("Opt-beta to 0.75, 200 sweeps", |points, _| {
-            let params = OptBetaParams { beta: 0.75, ..OptBetaParams::default() };
+            let params = OptBetaParams { beta: Some(0.75), iterations: 200, ..OptBetaParams::default() };
             opt_beta(points, &params, &mut RunContext::default()).unwrap();
         }),
         ("well-spaced, beta 0.75", |points, seed| {

@@ -31,7 +31,7 @@ fn opt_beta_ends_lowest_then_cvt_then_distmesh_then_farthest_point() {
     };
     let betas = [
         median(|points| {
-            let params = OptBetaParams { beta: 0.578, iterations: 100, ..OptBetaParams::default() };
+            let params = OptBetaParams { beta: Some(0.578), iterations: 100, ..OptBetaParams::default() };
             opt_beta(points, &params, &mut RunContext::default()).unwrap();
         }),
         median(|points| {
@@ -149,7 +149,7 @@ fn bad_parameters_are_refused() {
     let before = points.clone();
     let mut run = RunContext::default();
     let beta = OptBetaParams::default();
-    assert!(opt_beta(&mut points, &OptBetaParams { beta: 0.5, ..beta }, &mut run).is_err());
+    assert!(opt_beta(&mut points, &OptBetaParams { beta: Some(0.5), ..beta }, &mut run).is_err());
     assert!(opt_beta(&mut points, &OptBetaParams { damping: Some(f64::NAN), ..beta }, &mut run).is_err());
     assert!(opt_beta(&mut points, &OptBetaParams { iterations: 0, ..beta }, &mut run).is_err());
     assert!(lloyd(&mut points, &LloydParams { tolerance: -1.0, ..LloydParams::default() }, &mut run).is_err());

@@ -41,7 +41,7 @@ impl Method {
             Self::PushPull(easy),
             Self::PushPull(summed),
             Self::WellSpaced(spaced),
-            Self::OptBeta(OptBetaParams { beta: 0.578, iterations: 6, ..OptBetaParams::default() }),
+            Self::OptBeta(OptBetaParams { beta: Some(0.578), iterations: 6, ..OptBetaParams::default() }),
             Self::Lloyd(LloydParams { iterations: 20, ..LloydParams::default() }),
             Self::Cvt(CvtParams { iterations: 10, ..CvtParams::default() }),
             Self::DistMesh(DistMeshParams { iterations: 20, ..DistMeshParams::default() }),

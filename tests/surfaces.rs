@@ -141,8 +141,40 @@ fn every_method_runs_and_keeps_the_number() {
     };
     assert!(quality(RemeshMethod::WellSpaced(WellSpacedParams::default())).beta <= 0.75 + 1e-9);
     assert!(quality(RemeshMethod::Lloyd(LloydParams::default())).mean_quality > 0.9);
-    assert!(quality(RemeshMethod::OptBeta(OptBetaParams { beta: 0.8, ..OptBetaParams::default() })).beta < 0.9);
+    assert!(quality(RemeshMethod::OptBeta(OptBetaParams { beta: Some(0.8), iterations: 200, ..OptBetaParams::default() })).beta < 0.9);
     assert!(quality(RemeshMethod::DistMesh(Default::default())).mean_quality > 0.85);
+}
+
+/// A sphere with edges 21 times as long at one end as at the other: they stay so, whatever the method.
+#[test]
+fn every_method_keeps_the_wanted_lengths() {
+    let surface = Surface::new(&sphere(48)).unwrap();
+    let sizes = surface_sizes(&surface, &SurfaceSizing::Linear { axis: 2, ratio: 21.0 }, Some(1000)).unwrap();
+    let finest = sizes.iter().copied().fold(f64::INFINITY, f64::min);
+    for method in [
+        RemeshMethod::default(),
+        RemeshMethod::WellSpaced(WellSpacedParams::default()),
+        RemeshMethod::OptBeta(OptBetaParams { beta: Some(0.6), iterations: 300, ..OptBetaParams::default() }),
+        RemeshMethod::Lloyd(LloydParams { iterations: 300, ..LloydParams::default() }),
+        RemeshMethod::DistMesh(Default::default()),
+    ] {
+        let params = RemeshParams { n_points: 1000, method, sizes: sizes.clone(), ..RemeshParams::default() };
+        let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
+        let mut by_size = [(0.0, 0.0); 6];
+        for t in &made.mesh.triangles {
+            for ends in [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]] {
+                let [p, q] = ends.map(|v| made.mesh.vertices[v]);
+                let size = finest * (1.0 + 5.0 * (p[2] + q[2] + 2.0));
+                let ratio = (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt() / size;
+                assert!((0.5..2.0).contains(&ratio), "{method:?}: {ratio} at {p:?}");
+                let (sum, n) = &mut by_size[((size / finest).ln() / 21f64.ln() * 5.99) as usize];
+                (*sum, *n) = (*sum + ratio, *n + 1.0);
+            }
+        }
+        assert!(by_size.iter().all(|(sum, n)| (0.9..1.1).contains(&(sum / n))), "{method:?}: {by_size:?}");
+        let errors = surface_quality(&Surface::new(&made.mesh).unwrap()).size_errors.unwrap();
+        assert!((errors.size_ratio_mean - 1.0).abs() < 0.1 && errors.size_ratio_max < 2.0, "{method:?}: {errors:?}");
+    }
 }
 
 fn positions(surface: &Surface, sampling: SurfaceSampling, seed: u64) -> Vec<[f64; 3]> {

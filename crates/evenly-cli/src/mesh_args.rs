@@ -8,6 +8,7 @@ use evenly::{DistMeshParams, LloydParams, MeshMethod, OptBetaParams};
 use evenly_io::MeshFormat;
 
 use crate::parse::parse_count;
+use crate::remeshed::OPT_BETA_SWEEPS;
 use crate::shared_args::{DensityArgs, LongArgs};
 
 #[derive(Args)]
@@ -113,8 +114,8 @@ impl MeshWishes {
             }
             Rule::PushPull => MeshMethod::PushPull,
             Rule::OptBeta => {
-                let params = OptBetaParams { beta: 0.75, ..OptBetaParams::default() };
-                MeshMethod::OptBeta(OptBetaParams { iterations: iterations(params.iterations), ..params })
+                let params = OptBetaParams { beta: Some(0.75), ..OptBetaParams::default() };
+                MeshMethod::OptBeta(OptBetaParams { iterations: iterations(OPT_BETA_SWEEPS), ..params })
             }
             Rule::Lloyd => MeshMethod::Lloyd(LloydParams { iterations: iterations(lloyd.iterations), seed: self.seed, ..lloyd }),
             Rule::DistMesh => {

@@ -110,7 +110,7 @@ impl Optimizer for OptBetaParams {
     }
 
     fn targets(&self) -> Option<&dyn Targets> {
-        Some(self)
+        self.beta.map(|_| self as &dyn Targets)
     }
 }
 

@@ -36,6 +36,9 @@ const FLAGS: [(&str, &str); 11] = [
 /// The distance at which vertices are put on what stands out where sizes vary, in spacings: who varies them wants a mesh that is near.
 const SIZED_TOLERANCE: f64 = 0.35;
 
+/// Sweeps of opt-beta on a mesh, unless others are asked for.
+pub(crate) const OPT_BETA_SWEEPS: usize = 200;
+
 /// A new mesh, and what there is to say of it.
 pub struct Made {
     /// The mesh, and where its vertices lie on the one that was given.
@@ -191,10 +194,8 @@ fn method(wishes: &RemeshWishes) -> RemeshMethod {
             RemeshMethod::WellSpaced(params)
         }
         RemeshRule::OptBeta => {
-            let mut params = OptBetaParams { beta: 0.75, ..OptBetaParams::default() };
-            set(&mut params.beta, beta);
-            set(&mut params.iterations, iterations);
-            RemeshMethod::OptBeta(params)
+            let iterations = iterations.unwrap_or(OPT_BETA_SWEEPS);
+            RemeshMethod::OptBeta(OptBetaParams { beta: Some(beta.unwrap_or(0.75)), iterations, ..OptBetaParams::default() })
         }
         RemeshRule::Eliminate => RemeshMethod::Eliminate,
         RemeshRule::Lloyd => {

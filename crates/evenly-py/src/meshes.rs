@@ -37,11 +37,11 @@ pub fn mesh(
         let made = meshed(&polygon, "the polygon".as_ref(), &wishes(&words)?, given, context)?;
         let unmet: Vec<String> = made.unmet.iter().map(ToString::to_string).collect();
         let said = json(&serde_json::json!({ "quality": made.quality, "run": made.report, "notes": made.report.notes, "unmet": unmet }))?;
-        let Mesh { vertices, triangles, edges } = made.mesh;
+        let Mesh { vertices, triangles, edges, sizes } = made.mesh;
         answer(move |py| {
             let ends = edges.iter().map(|edge| edge.ends.map(|v| v as i64)).collect();
             let triangles = triangles.iter().map(|corners| corners.map(|v| v as i64)).collect();
-            let whole = (array(py, vertices)?, array(py, triangles)?, array(py, ends)?, numbers(py, edges.iter().map(tag).collect()), said);
+            let whole = (array(py, vertices)?, array(py, triangles)?, array(py, ends)?, numbers(py, edges.iter().map(tag).collect()), said, sizes);
             Ok(whole.into_pyobject(py)?.into_any().unbind())
         })
     })
@@ -56,20 +56,28 @@ fn tag(edge: &MeshEdge) -> i64 {
 }
 
 /// The same mesh as numbers.
-fn whole(vertices: &Rows, triangles: &Integers, edges: &Integers, tags: Vec<i64>) -> PyResult<Mesh> {
+fn whole(vertices: &Rows, triangles: &Integers, edges: &Integers, tags: Vec<i64>, sizes: Vec<f64>) -> PyResult<Mesh> {
     let kind = |tag: i64| match usize::try_from(tag) {
         Ok(segment) => EdgeKind::Border { segment },
         Err(_) => EdgeKind::Line { line: (-1 - tag) as usize },
     };
     let ends = indices(edges)?;
     let edges = ends.into_iter().zip(tags).map(|(ends, tag)| MeshEdge { ends, kind: kind(tag) }).collect();
-    Ok(Mesh { vertices: rows(vertices)?, triangles: indices(triangles)?, edges })
+    Ok(Mesh { vertices: rows(vertices)?, triangles: indices(triangles)?, edges, sizes })
 }
 
 /// Writes a mesh, whose format the path tells.
 #[pyfunction]
-pub fn write_mesh(py: Python, path: PathBuf, vertices: Rows, triangles: Integers, edges: Integers, tags: Vec<i64>) -> PyResult<()> {
-    let mesh = whole(&vertices, &triangles, &edges, tags)?;
+pub fn write_mesh(
+    py: Python,
+    path: PathBuf,
+    vertices: Rows,
+    triangles: Integers,
+    edges: Integers,
+    tags: Vec<i64>,
+    sizes: Vec<f64>,
+) -> PyResult<()> {
+    let mesh = whole(&vertices, &triangles, &edges, tags, sizes)?;
     py.detach(|| {
         let target = Target::any(&path, true)?;
         evenly_io::write_mesh(&mesh, MeshFormat::of_path(&path)?, "evenly", &target)
@@ -80,5 +88,5 @@ pub fn write_mesh(py: Python, path: PathBuf, vertices: Rows, triangles: Integers
 /// A mesh as SVG.
 #[pyfunction]
 pub fn mesh_figure(vertices: Rows, triangles: Integers, edges: Integers, tags: Vec<i64>) -> PyResult<String> {
-    Ok(evenly_io::mesh_svg(&whole(&vertices, &triangles, &edges, tags)?))
+    Ok(evenly_io::mesh_svg(&whole(&vertices, &triangles, &edges, tags, Vec::new())?))
 }

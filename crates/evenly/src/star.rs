@@ -46,6 +46,8 @@ pub(crate) struct Star {
     pub walls: Vec<Wall>,
     /// In that plane, the direction along which alone the vertex can go; zero for one that stays. `None` where it can go anywhere.
     pub rail: Option<DVec2>,
+    /// In that plane, the gradient of the wanted length, relative to that at the vertex; zero where it is the same everywhere.
+    pub slope: DVec2,
     /// In that plane, where the vertex goes.
     pub shift: DVec2,
     /// Room for a rule's own reckoning.
@@ -80,6 +82,8 @@ pub(crate) struct Metric {
     pub radii: Vec<f64>,
     /// For each spoke the mean density along the Voronoi edge across it; where the mass is asked for.
     pub sides: Vec<f64>,
+    /// For each spoke the wanted length at its end, relative to that at the vertex; where lengths are given, and the centroid is asked for.
+    pub sizes: Vec<f64>,
     /// The Voronoi cell's mass, and its centroid by mass relative to the vertex, in spacings.
     pub mass: Option<f64>,
     pub centroid: Option<DVec2>,
@@ -89,7 +93,7 @@ pub(crate) struct Metric {
 
 impl Default for Metric {
     fn default() -> Self {
-        Self { spokes: Vec::new(), radii: Vec::new(), sides: Vec::new(), mass: None, centroid: None, scale: 1.0 }
+        Self { spokes: Vec::new(), radii: Vec::new(), sides: Vec::new(), sizes: Vec::new(), mass: None, centroid: None, scale: 1.0 }
     }
 }
 
@@ -98,6 +102,7 @@ impl Metric {
         self.spokes.clear();
         self.radii.clear();
         self.sides.clear();
+        self.sizes.clear();
         (self.mass, self.centroid, self.scale) = (None, None, 1.0);
     }
 }
@@ -218,32 +223,29 @@ impl Star {
         let n = self.n_spokes();
         self.weights.clear();
         self.weights.resize(n, 0.0);
-        let mut area = 0.0;
+        let mut mass = 0.0;
         for k in 0..n {
             let after = self.after(k);
             let (u, v) = (self.lengths[k], self.lengths[after]);
             // Two triangles: the vertex, the middle of a spoke, the circumcentre.
             let [half_u, half_v] = self.wedges[k].halves(u, v);
-            let (mut of_u, mut of_v) = (0.25 * u * half_u, 0.25 * v * half_v);
-            if !self.metric.spokes.is_empty() {
-                (of_u, of_v) = (of_u * self.relative_density(k), of_v * self.relative_density(after));
-            }
+            let (of_u, of_v) = (0.25 * u * half_u, 0.25 * v * half_v);
             let [along_u, along_v] = self.centre(k);
-            let both = of_u + of_v;
-            self.weights[k] += both * along_u + 0.5 * of_u;
-            self.weights[after] += both * along_v + 0.5 * of_v;
-            area += both;
+            let (of_u, of_v) = match &self.metric.sizes[..] {
+                [] => (Moment::of_uniform(of_u), Moment::of_uniform(of_v)),
+                sizes => {
+                    let at_centre = 1.0 + along_u * (sizes[k] - 1.0) + along_v * (sizes[after] - 1.0);
+                    let to_middle = |size: f64| 0.5 * (1.0 + size);
+                    (Moment::of_sizes(of_u, to_middle(sizes[k]), at_centre), Moment::of_sizes(of_v, to_middle(sizes[after]), at_centre))
+                }
+            };
+            let to_centre = of_u.to_centre + of_v.to_centre;
+            self.weights[k] += to_centre * along_u + 0.5 * of_u.to_middle;
+            self.weights[after] += to_centre * along_v + 0.5 * of_v.to_middle;
+            mass += of_u.mass + of_v.mass;
         }
-        let scale = if area > 0.0 { 1.0 / (3.0 * area) } else { 0.0 };
+        let scale = if mass > 0.0 { 1.0 / mass } else { 0.0 };
         self.weights.iter_mut().for_each(|weight| *weight *= scale);
-    }
-
-    /// A density by which centroids come to rest with the wanted spacings, halfway to the side across spoke `k`: their inverse to the fourth (Du, Faber and Gunzburger 1999, section 6.4). 1 is that at the
-    /// vertex.
-    fn relative_density(&self, k: usize) -> f64 {
-        // The stretch is the inverse of the spacing at the side.
-        let at_side = self.metric.scale / self.stretch(k);
-        (0.5 * (1.0 + at_side)).powi(-4)
     }
 
     /// The squared distance from the vertex, integrated over its Voronoi cell.
@@ -284,6 +286,42 @@ impl Star {
     }
 }
 
+/// The mass of a triangle of the vertex, the middle of a spoke and a circumcentre, and its first moment: so much of the way to the middle, and to the centre.
+struct Moment {
+    mass: f64,
+    to_middle: f64,
+    to_centre: f64,
+}
+
+/// Dunavant's rule of fourth degree (1985): the shares of two corners, and the weight; the third has the rest. Each stands for its three turns.
+const NODES: [(f64, f64); 2] = [(0.445_948_490_915_965, 0.223_381_589_678_011), (0.091_576_213_509_771, 0.109_951_743_655_322)];
+/// Lengths that are extrapolated to a far circumcentre are no less than this part of the vertex' own.
+const LEAST_SIZE: f64 = 0.2;
+
+impl Moment {
+    fn of_uniform(area: f64) -> Self {
+        Self { mass: area, to_middle: area / 3.0, to_centre: area / 3.0 }
+    }
+
+    /// With a density by which centroids come to rest with the wanted lengths: their inverse to the fourth (Du, Faber and Gunzburger 1999, section 6.4). They are 1 at the vertex, as given at the
+    /// other corners, and linear in between.
+    fn of_sizes(area: f64, at_middle: f64, at_centre: f64) -> Self {
+        let (at_middle, at_centre) = (at_middle.max(LEAST_SIZE), at_centre.max(LEAST_SIZE));
+        let mut moment = Self { mass: 0.0, to_middle: 0.0, to_centre: 0.0 };
+        for (share, weight) in NODES {
+            let rest = 1.0 - 2.0 * share;
+            for [vertex, middle, centre] in [[rest, share, share], [share, rest, share], [share, share, rest]] {
+                let size = vertex + middle * at_middle + centre * at_centre;
+                let mass = area * weight / (size * size * size * size);
+                moment.mass += mass;
+                moment.to_middle += mass * middle;
+                moment.to_centre += mass * centre;
+            }
+        }
+        moment
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -310,6 +348,27 @@ mod tests {
             assert!((star.second_moment() - 5.0 / (24.0 * 3f64.sqrt())).abs() < 1e-14);
             assert!(star.is_covered(k, 0.578) && !star.is_covered(k, 0.577));
         }
+    }
+
+    /// Against a fine sum over the cell, of lengths that grow along the first spoke.
+    #[test]
+    fn the_centroid_by_wanted_lengths_is_that_of_their_inverse_to_the_fourth() {
+        let mut star = regular(6, 1.0);
+        let growth = 0.3;
+        let spokes: Vec<DVec2> = star.unfolded().collect();
+        star.metric.sizes = spokes.iter().map(|spoke| 1.0 + growth * spoke.x).collect();
+        star.find_centroid();
+        let found: DVec2 = spokes.iter().zip(&star.weights).map(|(spoke, &weight)| weight * *spoke).sum();
+        let (mut mass, mut moment) = (0.0, DVec2::ZERO);
+        for (x, y) in (-500..=500).flat_map(|y| (-500..=500).map(move |x| (x, y))) {
+            let place = DVec2::new(f64::from(x), f64::from(y)) / 800.0;
+            if spokes.iter().all(|spoke| place.dot(*spoke) <= 0.5) {
+                let density = (1.0 + growth * place.x).powi(-4);
+                mass += density;
+                moment += density * place;
+            }
+        }
+        assert!((found - moment / mass).length() < 2e-4, "{found} {}", moment / mass);
     }
 
     #[test]

@@ -150,6 +150,7 @@ fn summarize(name: &str, record: &MeshRecord) {
         "radius-edge ratio {radius_edge:.3}, beta {beta:.3}, quality {triangle_quality:.3}; edges {min_edge:.4e} to {max_edge:.4e} long; {:.1e} of the area missed",
         record.uncovered_area / record.polygon_area
     ));
+    record.quality.size_errors.iter().for_each(say);
     for unmet in record.unmet.iter().take(NAMED) {
         say(format_args!("not reached: {unmet}"));
     }

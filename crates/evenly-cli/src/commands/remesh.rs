@@ -145,6 +145,7 @@ fn summarize(name: &str, record: &RemeshRecord) {
         "distance to the input: RMS {rms:.2e}, Hausdorff {hausdorff:.2e} of the diagonal (input to mesh {max_from_reference:.3e}), {} self-intersections",
         record.self_intersections
     ));
+    record.quality.size_errors.iter().for_each(say);
     for breach in record.breaches.iter().take(NAMED) {
         let CertificateBreach { at: [x, y, z], min_angle_deg, max_angle_deg, .. } = breach;
         say(format_args!("not as the targets imply: a triangle of {min_angle_deg:.2} to {max_angle_deg:.2} degrees at ({x}, {y}, {z})"));

@@ -158,7 +158,7 @@ fn figure_6(lab: &Lab) -> anyhow::Result<Part> {
     let n_sweeps = lab.pick(60, 200);
     let mut rows = Vec::new();
     for &(name, n) in sizes {
-        let params = OptBetaParams { beta: 0.578, iterations: n_sweeps, ..OptBetaParams::default() };
+        let params = OptBetaParams { beta: Some(0.578), iterations: n_sweeps, ..OptBetaParams::default() };
         let run = lab.run(&Recipe::plain("Opt-beta", Method::PoissonDisk, params), n, SEED)?;
         let betas = run.report.map_or_else(Vec::new, |report| report.energy);
         let first = |target: f64| betas.iter().position(|&beta| beta <= target).map_or(f64::NAN, |sweep| sweep as f64);
@@ -293,7 +293,7 @@ fn figure_11(lab: &Lab) -> anyhow::Result<Part> {
             match is_lloyd {
                 _ if iterations == 0 => {}
                 true => drop(lloyd(&mut points, &LloydParams { iterations, tolerance: 0.0, ..LloydParams::default() }, run)?),
-                false => drop(opt_beta(&mut points, &OptBetaParams { beta: 0.578, iterations, ..OptBetaParams::default() }, run)?),
+                false => drop(opt_beta(&mut points, &OptBetaParams { beta: Some(0.578), iterations, ..OptBetaParams::default() }, run)?),
             }
             let m = measure(&points)?;
             let values = [m.beta, m.coverage_radius / of_start.min_distance, m.min_distance / of_start.min_distance];
@@ -337,7 +337,7 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     let methods = [
         ("CVT", MeshMethod::Lloyd(LloydParams::default())),
         ("DistMesh", MeshMethod::DistMesh(DistMeshParams::default())),
-        ("Opt-beta", MeshMethod::OptBeta(OptBetaParams { beta: 0.75, ..OptBetaParams::default() })),
+        ("Opt-beta", MeshMethod::OptBeta(OptBetaParams { beta: Some(0.75), iterations: 200, ..OptBetaParams::default() })),
         ("evenly's own, by Push-Pull", MeshMethod::PushPull),
     ];
     for (radius, printed) in [0.0314f64, 0.0157].into_iter().zip(printed) {

@@ -17,7 +17,7 @@ pub fn farthest_of_paper() -> Recipe {
 
 /// As in the paper: from a maximal Poisson-disk set.
 pub fn by_opt_beta(name: &'static str, beta: f64) -> Recipe {
-    Recipe::plain(name, Method::PoissonDisk, OptBetaParams { beta, ..OptBetaParams::default() })
+    Recipe::plain(name, Method::PoissonDisk, OptBetaParams { beta: Some(beta), ..OptBetaParams::default() })
 }
 
 pub fn by_well_spaced(name: &'static str, beta: f64) -> Recipe {

@@ -48,7 +48,7 @@ pub fn figure_15(lab: &Lab) -> anyhow::Result<Part> {
 fn sized(lab: &Lab, part: &mut Part, surface: &Surface, sizes: &[f64], n_points: usize) -> anyhow::Result<()> {
     let methods = [
         ("sample elimination, the start", RemeshMethod::Eliminate),
-        ("Opt-beta", RemeshMethod::OptBeta(OptBetaParams { beta: 0.73, iterations: 100, ..OptBetaParams::default() })),
+        ("Opt-beta", RemeshMethod::OptBeta(OptBetaParams { beta: Some(0.73), iterations: 100, ..OptBetaParams::default() })),
         ("well-spaced, beta 0.72", RemeshMethod::WellSpaced(WellSpacedParams { beta: 0.72, ..WellSpacedParams::default() })),
         (PUSH_PULL, RemeshMethod::default()),
     ];
@@ -108,7 +108,7 @@ pub fn figure_14(lab: &Lab) -> anyhow::Result<Part> {
     let surface = Surface::new(&sphere(64))?;
     let methods: [(&str, RemeshMethod, &[f64]); 5] = [
         ("elimination, and one step of Lloyd", RemeshMethod::Lloyd(LloydParams { iterations: 1, ..LloydParams::default() }), &[]),
-        ("Opt-beta", RemeshMethod::OptBeta(OptBetaParams { beta: 0.73, iterations: 400, ..OptBetaParams::default() }), &[0.73]),
+        ("Opt-beta", RemeshMethod::OptBeta(OptBetaParams { beta: Some(0.73), iterations: 400, ..OptBetaParams::default() }), &[0.73]),
         ("CVT (Lloyd, 400 iterations)", RemeshMethod::Lloyd(LloydParams { iterations: 400, ..LloydParams::default() }), &[0.81]),
         ("well-spaced, beta 0.72", RemeshMethod::WellSpaced(WellSpacedParams { beta: 0.72, ..WellSpacedParams::default() }), &[]),
         (PUSH_PULL, RemeshMethod::default(), &[]),

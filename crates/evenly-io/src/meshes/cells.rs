@@ -35,7 +35,7 @@ impl<'a> From<&'a Mesh> for Cells<'a> {
             triangles: &mesh.triangles,
             edges: mesh.edges.iter().map(|edge| (tag(edge.kind), edge.ends)).collect(),
             n_segments,
-            attributes: Vec::new(),
+            attributes: if mesh.sizes.is_empty() { Vec::new() } else { vec![("edge_length".into(), &mesh.sizes[..])] },
         }
     }
 }

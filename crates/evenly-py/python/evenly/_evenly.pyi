@@ -90,7 +90,7 @@ def mesh(
     callback: _Callback,
 ) -> tuple[_Rows, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str]: ...
 def write_mesh(
-    path: str, vertices: _Rows, triangles: NDArray[np.int64], edges: NDArray[np.int64], tags: list[int]
+    path: str, vertices: _Rows, triangles: NDArray[np.int64], edges: NDArray[np.int64], tags: list[int], sizes: list[float]
 ) -> None: ...
 def mesh_figure(
     vertices: _Rows, triangles: NDArray[np.int64], edges: NDArray[np.int64], tags: list[int]

@@ -53,6 +53,12 @@ class MeshQuality:
     """Longest edge."""
     area: float
     """The area of all triangles."""
+    size_ratio_mean: float
+    """Mean of edges over the mean of the lengths wanted at their ends."""
+    size_ratio_min: float
+    """The smallest of these."""
+    size_ratio_max: float
+    """The largest."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -67,6 +73,8 @@ class Mesh(Frozen):
     """Of shape (k, 2): the edges on the border, with the inside on their left, and on lines."""
     tags: NDArray[np.int64]
     """Of each edge: the segment of the border, counted through all of the polygon's rings; or -1, -2, ... for the first line, the second, ..."""
+    edge_length: Floats
+    """Of shape (n,): the length of edges that is wanted at each vertex, shorter than was asked for where the border is detailed."""
     quality: MeshQuality
     """What it is worth."""
     seed: int
@@ -85,7 +93,7 @@ class Mesh(Frozen):
 
     def save(self, path: "str | os.PathLike[str]") -> None:
         """Write the mesh as .msh (Gmsh 4.1), .vtu, .obj, .ply, .off, .stl, .geojson, .npz, .svg, .png or .pdf, as the path says."""
-        _evenly.write_mesh(os.fspath(path), self.vertices, self.triangles, self.edges, self.tags.tolist())
+        _evenly.write_mesh(os.fspath(path), self.vertices, self.triangles, self.edges, self.tags.tolist(), self.edge_length.tolist())
 
     def svg(self) -> str:
         """Draw the mesh: obtuse triangles light red, thin ones red."""
@@ -194,8 +202,8 @@ def mesh(
     lengths = None if sizes is None else rows(sizes, "sizes", 3, may_be_empty=True)
     wanted = density_of(density, shape)
 
-    def build(answer: tuple[Floats, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str]) -> Mesh:
-        vertices, triangles, edges, tags, text = answer
+    def build(answer: tuple[Floats, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str, list[float]]) -> Mesh:
+        vertices, triangles, edges, tags, text, lengths = answer
         said: dict[str, Any] = json.loads(text)
         quality: dict[str, Any] = {name: math.nan if value is None else value for name, value in said["quality"].items()}
         return Mesh(
@@ -203,6 +211,7 @@ def mesh(
             triangles=frozen(triangles),
             edges=frozen(edges),
             tags=frozen(tags),
+            edge_length=frozen(np.asarray(lengths)),
             quality=MeshQuality(**{each.name: quality[each.name] for each in fields(MeshQuality)}),
             seed=chance,
             outcome=said["run"]["outcome"],

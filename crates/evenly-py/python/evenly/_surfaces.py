@@ -75,6 +75,12 @@ class SurfaceQuality:
     """Shortest edge, relative to the spacing."""
     coverage_radius: float
     """Largest circumradius, relative to the spacing."""
+    size_ratio_mean: float
+    """Mean of edges over the mean of the lengths wanted at their ends."""
+    size_ratio_min: float
+    """The smallest of these."""
+    size_ratio_max: float
+    """The largest."""
 
 
 @dataclass(frozen=True)

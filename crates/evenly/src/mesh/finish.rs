@@ -2,12 +2,14 @@
 
 use std::collections::HashMap;
 
+use glam::DVec2;
+
 use super::caps::Cap;
 use super::outline::{Of, Outline};
 use super::settled::Settled;
 use super::{EdgeKind, Mesh, MeshEdge};
 use crate::space::Domain;
-use crate::triangulation::{BORDER, Planar, Refinement, Refining, Triangulation};
+use crate::triangulation::{BORDER, HalfEdges, Planar, Refinement, Refining, Sizing, Triangulation, prev};
 
 /// Angles below this are refined; or below what is wanted, as far as refinement ends in practice.
 const REFINED_DEG: f64 = 25.5;
@@ -20,7 +22,7 @@ pub(super) fn refined_deg(min_angle_deg: Option<f64>) -> f64 {
 
 /// The mesh of settled points, refined where angles are below `refined_deg` and segments not shorter than `floor`; and how many points that took.
 pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: &Domain, refined_deg: f64, floor: f64) -> (Mesh, usize) {
-    let Settled { triangulation, mut corners, edges, .. } = settled;
+    let Settled { triangulation, mut corners, edges, sizes, sizing, hints, .. } = settled;
     let Triangulation { half_edges, positions, .. } = triangulation;
     let n_settled = positions.len();
     let aspect = 0.5 / refined_deg.to_radians().sin();
@@ -29,15 +31,18 @@ pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: 
     let Refinement { half_edges, positions, segments, .. } = Refinement::run(planar, edges.into_iter().collect(), refining);
     corners.resize(positions.len(), BORDER);
 
+    let sizes = sizes_of_all(sizes, hints, &sizing, &half_edges, &positions);
+
     // Vertices of one corner are one; those as they were given keep their bits.
     let mut mesh = Mesh::default();
     let mut numbers = HashMap::new();
     let mut vertices = Vec::with_capacity(positions.len());
-    for (&corner, &p) in corners.iter().zip(&positions) {
+    for ((&corner, &p), &size) in corners.iter().zip(&positions).zip(&sizes) {
         let number = if corner == BORDER { mesh.vertices.len() } else { *numbers.entry(corner).or_insert(mesh.vertices.len()) };
         vertices.push(number);
         if number == mesh.vertices.len() {
             mesh.vertices.push(outline.given.get(corner as usize).copied().unwrap_or_else(|| domain.restore(p)));
+            mesh.sizes.push(domain.restore_length(size));
         }
     }
     mesh.triangles = half_edges.triangles().map(|t| t.map(|v| vertices[v as usize])).collect();
@@ -59,6 +64,7 @@ pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: 
         let tip = *numbers.entry(corner).or_insert(mesh.vertices.len());
         if tip == mesh.vertices.len() {
             mesh.vertices.push(outline.given[corner as usize]);
+            mesh.sizes.push(mesh.sizes[numbers[&cap.corners[1]]]);
         }
         let sides = bases.get(&cap.base).map(Vec::as_slice).unwrap_or_default();
         mesh.triangles.extend(sides.iter().map(|&[from, to]| [tip, to, from]));
@@ -70,4 +76,19 @@ pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: 
         }
     }
     (mesh, positions.len() - n_settled)
+}
+
+/// The wanted spacing at all vertices: of those that refinement has added by a walk from where a neighbour is.
+fn sizes_of_all(mut sizes: Vec<f64>, mut hints: Vec<u32>, sizing: &Sizing, half_edges: &HalfEdges, positions: &[DVec2]) -> Vec<f64> {
+    let n_settled = sizes.len();
+    sizes.resize(positions.len(), f64::NAN);
+    hints.resize(positions.len(), BORDER);
+    let outgoing = half_edges.outgoing(positions.len());
+    for v in n_settled..positions.len() {
+        let around = half_edges.around(outgoing[v]).flat_map(|h| [half_edges.target(h), half_edges.origin[prev(h) as usize]]);
+        let mut hint = around.map(|other| hints[other as usize]).find(|&hint| hint != BORDER).unwrap_or(0);
+        sizes[v] = sizing.at(positions[v], &mut hint);
+        hints[v] = hint;
+    }
+    sizes
 }

@@ -151,6 +151,8 @@ pub struct Mesh {
     pub triangles: Vec<[usize; 3]>,
     /// The edges on the border and on lines.
     pub edges: Vec<MeshEdge>,
+    /// The length of edges that is wanted at each vertex, in input units: what was asked for, and less where the border is detailed. Empty where nobody knows.
+    pub sizes: Vec<f64>,
 }
 
 impl Mesh {

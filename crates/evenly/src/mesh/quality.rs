@@ -1,8 +1,11 @@
 //! What a mesh is worth.
 
+use std::collections::HashSet;
+
 use serde::Serialize;
 
 use super::Mesh;
+use crate::measure::SizeErrors;
 
 /// What [`mesh_quality`] finds. Angles are NaN where there is no triangle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,6 +36,9 @@ pub struct MeshQuality {
     pub max_edge: f64,
     /// The area of all triangles, in input units squared.
     pub area: f64,
+    /// How long edges are beside what is wanted; `None` where the mesh does not know.
+    #[serde(flatten)]
+    pub size_errors: Option<SizeErrors>,
 }
 
 /// An angle counts as obtuse above this.
@@ -45,6 +51,20 @@ pub(super) fn angles_deg(corners: [[f64; 2]; 3]) -> [f64; 3] {
         let (u, v) = (way(corners[k], corners[(k + 1) % 3]), way(corners[k], corners[(k + 2) % 3]));
         (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1]).to_degrees()
     })
+}
+
+/// Each edge once: from its triangle in which it runs upwards, or from the only one that it has.
+fn size_errors(mesh: &Mesh) -> Option<SizeErrors> {
+    if mesh.sizes.len() != mesh.vertices.len() {
+        return None;
+    }
+    let is_on_border: HashSet<[usize; 2]> = mesh.edges.iter().map(|edge| edge.ends).collect();
+    let sides = mesh.triangles.iter().flat_map(|t| [0, 1, 2].map(|k| [t[k], t[(k + 1) % 3]]));
+    let edges = sides.filter(|&[a, b]| a < b || is_on_border.contains(&[a, b]));
+    SizeErrors::of(edges.map(|ends| {
+        let [p, q] = ends.map(|v| mesh.vertices[v]);
+        ((p[0] - q[0]).hypot(p[1] - q[1]), ends.map(|v| mesh.sizes[v]))
+    }))
 }
 
 /// Measures a mesh.
@@ -63,6 +83,7 @@ pub fn mesh_quality(mesh: &Mesh) -> MeshQuality {
         min_edge: f64::INFINITY,
         max_edge: 0.0,
         area: 0.0,
+        size_errors: size_errors(mesh),
     };
     let mut max_radius = 0f64;
     for t in &mesh.triangles {

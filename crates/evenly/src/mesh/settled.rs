@@ -1,8 +1,9 @@
 //! [`Settled`]: the points of a mesh in their places, triangulated.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
-use crate::triangulation::{LiveMesh, Track, Triangulation};
+use crate::triangulation::{LiveMesh, Sizing, Track, Triangulation};
 
 /// Points in their places, triangulated.
 pub(super) struct Settled {
@@ -13,8 +14,10 @@ pub(super) struct Settled {
     pub corners: Vec<u32>,
     /// The edges on the border and lines by their vertices, and the outline's segment on which each lies.
     pub edges: Vec<([u32; 2], u32)>,
-    /// The wanted spacing at each vertex, in the domain's units.
+    /// The wanted spacing at each vertex, in the domain's units, and for every place; with the triangle there of each vertex.
     pub sizes: Vec<f64>,
+    pub sizing: Arc<Sizing>,
+    pub hints: Vec<u32>,
 }
 
 impl Settled {
@@ -30,6 +33,8 @@ impl Settled {
             tracks: source.iter().map(|&point| bonds.tracks[point as usize]).collect(),
             corners: source.iter().map(|&point| corners[point as usize]).collect(),
             edges,
+            hints: source.iter().map(|&point| bonds.hints[point as usize]).collect(),
+            sizing: Arc::clone(&bonds.sizing),
             sizes: (0..source.len() as u32).map(|v| mesh.local_spacing(v)).collect(),
             triangulation,
         })

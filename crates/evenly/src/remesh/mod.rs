@@ -43,7 +43,8 @@ use self::settle::settle;
 use self::start::start;
 use crate::error::Error;
 use crate::run::{Phase, Report, RunContext};
-use crate::surface::{Attribute, Features, Place, Surface, TriangleMesh, weighted_area};
+use crate::surface::{Attribute, Features, Place, SIZE, Surface, TriangleMesh, weighted_area};
+use crate::sweep::Ground as _;
 
 /// The smallest size over the largest, at least.
 const SMALLEST_SIZE: f64 = 1e-6;
@@ -129,7 +130,7 @@ impl RemeshParams {
 /// A surface's new mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remeshed {
-    /// Vertices in input units, triangles that run as the surface's do, and what the surface's vertices carry, interpolated.
+    /// Vertices in input units, triangles that run as the surface's do, what the surface's vertices carry, interpolated, and as `edge_length` how long edges are to be there.
     pub mesh: TriangleMesh,
     /// Where each vertex lies on the mesh that was given.
     pub places: Vec<SurfacePoint>,
@@ -243,6 +244,12 @@ fn relative_sizes(surface: &Surface, sizes: &[f64]) -> Vec<f64> {
     shares.into_iter().map(|share| share / mean).collect()
 }
 
+/// The length of edges that is wanted at each vertex, in input units.
+fn size(surface: &Surface, live: &LiveSurface) -> Attribute {
+    let of = |v: u32| surface.frame.length_outward(live.local_spacing(v));
+    Attribute { name: SIZE.into(), values: (0..live.n_points() as u32).map(of).collect() }
+}
+
 /// The mesh as it is given back.
 fn finished(surface: &Surface, live: &LiveSurface) -> Remeshed {
     let vertices = live.vertices();
@@ -254,7 +261,7 @@ fn finished(surface: &Surface, live: &LiveSurface) -> Remeshed {
     let mesh = TriangleMesh {
         vertices: places.iter().map(|place| place.position).collect(),
         triangles: live.half_edges().triangles().map(|t| t.map(|v| v as usize)).collect(),
-        attributes: surface.attributes().iter().map(attribute).collect(),
+        attributes: surface.attributes().iter().filter(|own| own.name != SIZE).map(attribute).chain([size(surface, live)]).collect(),
     };
     Remeshed { mesh, places }
 }

@@ -174,7 +174,7 @@ fn to_least_ratio(
     let mut best = (sweep.ground_mut().beta(), sweep.ground_mut().state());
     report.energy.push(best.0);
     report.outcome = loop {
-        if best.0 <= wanted.beta {
+        if best.0 <= wanted.wanted() {
             break Outcome::Converged;
         }
         if report.iterations >= end {

@@ -9,7 +9,7 @@ use super::ground::SurfaceBuffer;
 use super::live::LiveSurface;
 use crate::star::{Senses, Star, Wedge};
 use crate::sweep::Ground;
-use crate::triangulation::{BORDER, Spoke};
+use crate::triangulation::{BORDER, Spoke, slope};
 
 impl LiveSurface<'_> {
     /// Turns the spokes around `v` into a star.
@@ -53,6 +53,9 @@ impl LiveSurface<'_> {
             let mass: f64 = (0..n).map(|k| star.kite(k) * star.metric.radii[k] * star.metric.radii[k]).sum();
             star.metric.mass = Some(mass);
             star.metric.scale = if area > 0.0 && mass > 0.0 { (mass / area).sqrt() } else { own };
+            if senses.centroid {
+                star.metric.sizes.extend(spokes.iter().map(|spoke| own / inverse(spoke.vertex)));
+            }
             let radii = &star.metric.radii;
             star.metric.sides.extend((0..n).map(|k| 0.5 * (radii[if k > 0 { k - 1 } else { n - 1 }].powi(2) + radii[k].powi(2))));
         }
@@ -108,6 +111,11 @@ impl LiveSurface<'_> {
         star.beyond.clear();
         star.beyond.extend(beyond.iter().map(|&other| flat(other)));
         star.walls.clear();
+        star.slope = if self.has_density() {
+            slope(star.ring.iter().zip(&neighbours).map(|(&place, &other)| (place, self.size(other) / self.size(v))))
+        } else {
+            DVec2::ZERO
+        };
         star.rail = self.is_fixed(v).then_some(DVec2::ZERO);
         buffer.moving = ring;
     }

@@ -26,6 +26,7 @@ pub use distribution::{SurfaceMeasures, measure_on_surface, surface_spectrum};
 pub(crate) use features::{Chain, Features};
 pub(crate) use morton::morton;
 pub(crate) use poisson_disk::{poisson_disk, white};
+pub(crate) use quality::SIZE;
 pub use quality::{CertificateBreach, SurfaceQuality, certificate, surface_quality};
 pub(crate) use sizing::weighted_area;
 pub use sizing::{SurfaceSizing, expected_vertices, surface_sizes};

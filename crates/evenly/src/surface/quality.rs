@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::Surface;
+use crate::measure::SizeErrors;
 use crate::triangulation::{BORDER, prev};
 
 /// Measures of a mesh's triangles, by chords; lengths in input units.
@@ -57,6 +58,9 @@ pub struct SurfaceQuality {
     pub min_distance: f64,
     /// The largest circumradius, relative to the spacing (r_c).
     pub coverage_radius: f64,
+    /// How long edges are beside what is wanted, by the vertices' attribute `edge_length`; `None` where there is none.
+    #[serde(flatten)]
+    pub size_errors: Option<SizeErrors>,
 }
 
 /// A triangle whose angles are not certified.
@@ -71,6 +75,9 @@ pub struct CertificateBreach {
     /// Its largest angle.
     pub max_angle_deg: f64,
 }
+
+/// The attribute that tells the wanted length of edges at each vertex.
+pub(crate) const SIZE: &str = "edge_length";
 
 /// Angles that are off by less than this are as they should be.
 const ROUNDING_DEG: f64 = 1e-6;
@@ -104,6 +111,7 @@ pub fn surface_quality(surface: &Surface) -> SurfaceQuality {
         spacing: 0.0,
         min_distance: 0.0,
         coverage_radius: 0.0,
+        size_errors: size_errors(surface),
     };
     let (mut thin, mut squares) = (0, 0.0);
     for t in 0..n_triangles {
@@ -158,6 +166,19 @@ pub fn certificate(surface: &Surface, beta: f64) -> Vec<CertificateBreach> {
         })
     };
     (0..surface.n_triangles()).filter_map(breach).collect()
+}
+
+/// Each edge once: from its first half-edge.
+fn size_errors(surface: &Surface) -> Option<SizeErrors> {
+    let attribute = surface.attributes().iter().find(|attribute| attribute.name == SIZE)?;
+    let sizes = surface.of_given(&attribute.values);
+    let mesh = &surface.half_edges;
+    let edges = (0..mesh.origin.len() as u32).filter(|&h| mesh.twin[h as usize] > h);
+    SizeErrors::of(edges.map(|h| {
+        let ends = [mesh.origin[h as usize], mesh.target(h)].map(|v| v as usize);
+        let [a, b] = ends.map(|v| surface.points[v]);
+        (surface.frame.length_outward(a.distance(b)), ends.map(|v| sizes[v]))
+    }))
 }
 
 struct Shape {

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::points::Random;
 use crate::run::{Phase, Progress, Report, RunContext};
 use crate::star::Rule;
-use crate::triangulation::{LiveMesh, Territory};
+use crate::triangulation::{Distances, LiveMesh, Territory};
 
 /// When the moves are made that a pass asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -280,12 +280,12 @@ impl Sweep {
         (self.mesh.into_order(), self.best.state)
     }
 
-    /// As [`LiveMesh::distance_and_radius`].
+    /// As [`LiveMesh::distances`].
     ///
     /// # Errors
     /// As there.
-    pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
-        self.mesh.distance_and_radius()
+    pub fn distances(&mut self) -> Result<Distances, Error> {
+        self.mesh.distances()
     }
 
     /// The places of the points, as the mesh has them.

@@ -39,6 +39,6 @@ pub(crate) use shared::{SharedMesh, Territory};
 pub(crate) use sight::Moments;
 pub(crate) use sizing::Sizing;
 pub(crate) use spoke::{MIRROR, Spoke};
-pub(crate) use stars::StarBuffer;
+pub(crate) use stars::{Distances, StarBuffer, slope};
 pub(crate) use torus::cover;
 pub(crate) use transplant::Transplant;

@@ -18,6 +18,20 @@ use crate::density::Field;
 use crate::error::Error;
 use crate::star::{Senses, Star, Wall, Wedge};
 
+/// The gradient of a length that is 1 at the origin and as given at some places, by least squares; zero where these do not tell.
+pub(crate) fn slope(known: impl Iterator<Item = (DVec2, f64)>) -> DVec2 {
+    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, DVec2::ZERO);
+    for (place, length) in known {
+        (xx, xy, yy) = (xx + place.x * place.x, xy + place.x * place.y, yy + place.y * place.y);
+        right += (length - 1.0) * place;
+    }
+    let determinant = xx * yy - xy * xy;
+    if determinant <= f64::EPSILON * (xx + yy) * (xx + yy) {
+        return DVec2::ZERO;
+    }
+    DVec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant
+}
+
 /// The fewest points that a thread looks at in one go.
 const CHUNK: usize = 1 << 12;
 /// The corners of cells are looked at up to so many times the longest spoke.
@@ -50,6 +64,14 @@ pub(crate) struct StarBuffer {
     corners: Vec<DVec2>,
     /// The mean density along the sides of what is seen of it.
     seen_sides: Vec<f64>,
+}
+
+/// What [`LiveMesh::distances`] finds.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Distances {
+    pub smallest: f64,
+    pub largest_radius: f64,
+    pub mean_ratio: f64,
 }
 
 impl StarBuffer {
@@ -100,14 +122,20 @@ impl LiveMesh {
         Ok(seen.collect())
     }
 
-    /// The smallest distance of two points and the largest circumradius, in the wanted spacings where a mesh varies them, and in spacings elsewhere.
-    pub fn distance_and_radius(&mut self) -> Result<[f64; 2], Error> {
+    /// The smallest distance of two points and the largest circumradius, in the wanted spacings where a mesh varies them, and in spacings elsewhere; and the mean over the points of the ratio
+    /// of their own largest circumradius to their own smallest distance.
+    pub fn distances(&mut self) -> Result<Distances, Error> {
         let seen = self.look(Senses::default(), |_, _, StarBuffer { star, .. }| {
             let neighbours = (0..star.n_spokes()).filter(|&k| !star.is_mirror[k]);
             let nearest = neighbours.map(|k| star.lengths[k] * star.stretch(k)).fold(f64::INFINITY, f64::min);
             [nearest, (0..star.n_spokes()).map(|k| star.weighted_radius(k)).fold(0.0, f64::max)]
         })?;
-        Ok(seen.into_iter().fold([f64::INFINITY, 0.0], |a, b| [a[0].min(b[0]), a[1].max(b[1])]))
+        let n = seen.len() as f64;
+        Ok(Distances {
+            smallest: seen.iter().map(|star| star[0]).fold(f64::INFINITY, f64::min),
+            largest_radius: seen.iter().map(|star| star[1]).fold(0.0, f64::max),
+            mean_ratio: seen.iter().map(|[nearest, farthest]| farthest / nearest).sum::<f64>() / n,
+        })
     }
 
     /// Moves all points, each by its own vector or as far as it gets.
@@ -146,9 +174,10 @@ impl LiveMesh {
         star.beyond.clear();
         star.beyond.extend(near.iter().filter(|&&other| !is_in_ring(other)).filter_map(|&other| place(other)));
         star.walls.clear();
-        star.rail = None;
+        (star.rail, star.slope) = (None, DVec2::ZERO);
         if let Some(held) = &self.held {
             star.rail = held.rail(v);
+            star.slope = slope(moving.iter().map(|spoke| (scale * spoke.way, held.size(spoke.vertex) / held.size(v))));
             for (spoke, after) in moving.iter().zip(moving[1..].iter().chain(&moving[..1])) {
                 if spoke.half_edge != BORDER && self.is_wall(held, spoke, after) {
                     let normal = -(after.way - spoke.way).perp().normalize_or_zero();
@@ -270,7 +299,7 @@ impl LiveMesh {
 impl LiveMesh {
     /// Finds what the star's lengths, radii and area are in the spacings that are wanted at its vertices.
     fn scale_sizes(&self, held: &Held, v: u32, buffer: &mut StarBuffer) {
-        let StarBuffer { star, spokes, .. } = buffer;
+        let StarBuffer { star, spokes, senses, .. } = buffer;
         let own = held.size(v);
         let n = spokes.len();
         for (k, spoke) in spokes.iter().enumerate() {
@@ -279,6 +308,9 @@ impl LiveMesh {
             star.metric.spokes.push(root);
             star.metric.sides.push(root * root);
             star.metric.radii.push(3.0 * self.spacing / (own + size + after));
+        }
+        if senses.centroid {
+            star.metric.sizes.extend(spokes.iter().map(|spoke| held.size(spoke.vertex) / own));
         }
         star.metric.scale = self.spacing / own;
         star.metric.mass = Some(star.measure_cell() * star.metric.scale * star.metric.scale * held.fullness(v));

@@ -75,7 +75,7 @@ impl Gaps {
     pub fn smallest_distance(&mut self) -> Result<f64, Error> {
         self.mesh.legalize();
         self.mend()?;
-        Ok(self.mesh.distance_and_radius()?[0])
+        Ok(self.mesh.distances()?.smallest)
     }
 
     /// Where the mesh is torn, it is made anew, and all gaps are measured.

@@ -10,7 +10,7 @@ const MOST: usize = 16;
 /// Half the side of the square that cells are cut out of, in spacings.
 const FAR: f64 = 64.0;
 
-/// The ratio r_c / r_f of the cell that the star's vertex would have at `at` (the paper's local beta); infinite where it would have none.
+/// The ratio r_c / r_f of the cell that the star's vertex would have at `at` (the paper's local beta), in wanted lengths where these vary; infinite where it would have none.
 pub(super) fn local_ratio(star: &Star, at: DVec2) -> f64 {
     if star.walls.iter().any(|wall| wall.normal.dot(at) > wall.distance) {
         return f64::INFINITY;
@@ -50,7 +50,18 @@ fn ratio_with_ring(star: &Star, at: DVec2) -> Option<f64> {
             return None;
         }
     }
-    Some((farthest / nearest).sqrt())
+    Some(if star.slope == DVec2::ZERO { (farthest / nearest).sqrt() } else { sized_ratio(star, at, star.ring.iter(), &corners[..n]) })
+}
+
+/// Lengths that are extrapolated are no less than this part of the vertex' own.
+const LEAST_SIZE: f64 = 0.2;
+
+/// The ratio with both radii in the lengths that are wanted where they are: the one at the cell's corners, the other halfway to the places around.
+fn sized_ratio<'a>(star: &Star, at: DVec2, places: impl Iterator<Item = &'a DVec2>, corners: &[DVec2]) -> f64 {
+    let size = |place: DVec2| (1.0 + star.slope.dot(place)).max(LEAST_SIZE);
+    let farthest = corners.iter().map(|&corner| corner.length() / size(at + corner)).fold(0.0, f64::max);
+    let nearest = places.map(|&place| place.distance(at) / size(0.5 * (at + place))).fold(f64::INFINITY, f64::min);
+    farthest / nearest
 }
 
 /// The ratio of the cell that all places around, and the walls, cut out of the plane.
@@ -69,7 +80,11 @@ fn ratio_of_cut_cell(star: &Star, at: DVec2) -> f64 {
             cell.cut(way, 0.5 * squared);
         }
     }
-    if cell.n == 0 || nearest == 0.0 { f64::INFINITY } else { (cell.farthest / nearest).sqrt() }
+    match () {
+        () if cell.n == 0 || nearest == 0.0 => f64::INFINITY,
+        () if star.slope == DVec2::ZERO => (cell.farthest / nearest).sqrt(),
+        () => sized_ratio(star, at, star.ring.iter().chain(&star.beyond), cell.corners()),
+    }
 }
 
 /// A convex polygon, counter-clockwise, around the origin.
@@ -90,6 +105,10 @@ impl Cell {
             *corner = FAR * DVec2::new(x, y);
         }
         Self { corners, now: 0, n: 4, farthest: 2.0 * FAR * FAR }
+    }
+
+    fn corners(&self) -> &[DVec2] {
+        &self.corners[self.now][..self.n]
     }
 
     /// Cuts off the places p with p . normal > most.
