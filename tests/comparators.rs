@@ -156,7 +156,7 @@ fn bad_parameters_are_refused() {
     assert!(cvt(&mut points, &CvtParams { tolerance: f64::INFINITY, ..CvtParams::default() }, &mut run).is_err());
     assert!(distmesh(&mut points, &DistMeshParams { pressure: 0.0, ..DistMeshParams::default() }, &mut run).is_err());
     assert!(distmesh(&mut points, &DistMeshParams { step: 1.5, ..DistMeshParams::default() }, &mut run).is_err());
-    assert!(capacity(&mut points, &CapacityParams { capacity_tolerance: 0.0, ..CapacityParams::default() }, &mut run).is_err());
+    assert!(capacity(&mut points, &CapacityParams { capacity_tolerance: -0.1, ..CapacityParams::default() }, &mut run).is_err());
     let far = FarthestPointParams::default();
     assert!(farthest_point(&mut points, &FarthestPointParams { min_distance: Some(1.5), ..far }, &mut run).is_err());
     assert!(farthest_point(&mut points, &FarthestPointParams { relaxation: 2.0, ..far }, &mut run).is_err());

@@ -245,12 +245,7 @@ fn procrustes_keeps_points_apart_at_the_edges_of_black_areas() {
         let is_alone = [0, 1].iter().all(|&axis| (p[axis] * 200.0) as usize % 25 == 0);
         f64::from(u8::from(((p[0] - 0.5).hypot(p[1] - 0.5) - 0.35).abs() < 0.005)) + 0.5 * f64::from(u8::from(is_alone))
     };
-    let pictures = [
-        Density::image(2, 1, &[0.0, 1.0]).unwrap(),
-        function(100, disk),
-        function(200, board),
-        function(200, ring),
-    ];
+    let pictures = [Density::image(2, 1, &[0.0, 1.0]).unwrap(), function(100, disk), function(200, board), function(200, ring)];
     for (picture, density) in pictures.iter().enumerate() {
         for (space, n, seed) in [(rectangle(), 200, 1), (torus(), 1000, 2), (rectangle(), 3000, 3)] {
             let mut points = start(&space, density, n, seed);

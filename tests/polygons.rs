@@ -13,7 +13,7 @@ use evenly::{
 use proptest::prelude::*;
 
 use methods::OPTIMIZERS;
-use shapes::{Ring, comb, l_shape, moved, needle, nested, passage, slit, spiral, star};
+use shapes::{Ring, comb, l_shape, moved, needle, nested, passage, rectangle, slit, spiral, star};
 
 fn space(rings: &[Ring]) -> Space {
     Space::from(&Polygon::from_rings(rings.to_vec()).unwrap())
@@ -91,10 +91,32 @@ fn a_maximal_set_is_one_as_far_as_can_be_seen() {
     // Of points on both sides of a wall that is thinner than the spacing one may be missing.
     for (rings, leeway) in [(l_shape(), 1.01), (star(7, 0.3), 1.01), (nested(3), 1.01), (slit(1e-3), 1.2), (comb(4, 0.05), 1.2)] {
         let space = space(&rings);
-        let params = PoissonDiskParams { seed: 5, ..PoissonDiskParams::for_about(&space, 800) };
+        let params = PoissonDiskParams { seed: 5, is_visible: true, ..PoissonDiskParams::for_about(&space, 800) };
         let measures = measure(&poisson_disk(&space, &params).unwrap()).unwrap();
         let spacing = params.spacing / measures.hex_spacing;
-        assert!(measures.min_distance >= spacing * (1.0 - 1e-9) && measures.coverage_radius <= leeway * spacing, "{space}: {measures:?}");
+        let distance = measures.border.as_ref().unwrap().min_distance_visible.unwrap();
+        assert!(distance >= spacing * (1.0 - 1e-9) && measures.coverage_radius <= leeway * spacing, "{space}: {measures:?}");
+    }
+}
+
+/// The flag promises that no two points are nearer, whatever stands between them: across a slit, and between parts.
+#[test]
+fn poisson_disks_keep_their_distance_across_walls() {
+    let parcels = vec![rectangle([0.0, 0.0], [100.0, 100.0]), rectangle([102.0, 0.0], [98.0, 100.0])];
+    for (rings, spacing) in [(parcels, 8.0), (slit(1e-3), 0.03), (comb(4, 0.05), 0.02), (nested(3), 0.05)] {
+        let space = space(&rings);
+        let params = PoissonDiskParams { spacing, seed: 2, ..PoissonDiskParams::for_about(&space, 1) };
+        let points = poisson_disk(&space, &params).unwrap();
+        let p = points.positions();
+        let pairs = (0..p.len()).flat_map(|j| (0..j).map(move |i| (p[i][0] - p[j][0]).hypot(p[i][1] - p[j][1])));
+        let nearest = pairs.fold(f64::INFINITY, f64::min);
+        let measures = measure(&points).unwrap();
+        assert!(nearest >= spacing && (measures.min_distance * measures.hex_spacing / nearest - 1.0).abs() < 1e-9, "{space}: {nearest}");
+        assert!(measures.border.unwrap().min_distance_visible.unwrap() >= measures.min_distance);
+        // Each place is covered, by a point that it need not see.
+        let white = white(&space, 3000, 1).unwrap();
+        let covered = |q: &[f64; 2]| p.iter().any(|p| (p[0] - q[0]).hypot(p[1] - q[1]) <= spacing * (1.0 + 1e-9));
+        assert!(white.positions().iter().all(covered), "{space}");
     }
 }
 
@@ -135,7 +157,9 @@ fn nothing_is_seen_across_a_slit() {
     ]]);
     let points = PointSet::new(&rooms, vec![[0.49, 0.9], [0.51, 0.9], [0.2, 0.3], [0.8, 0.3]]).unwrap();
     let measures = measure(&points).unwrap();
-    assert!(measures.min_distance * measures.hex_spacing > 0.5, "{measures:?}");
+    let seen = measures.border.as_ref().and_then(|border| border.min_distance_visible).unwrap();
+    assert!(seen * measures.hex_spacing > 0.5, "{measures:?}");
+    assert!((measures.min_distance * measures.hex_spacing - 0.02).abs() < 1e-9, "{measures:?}");
     let cells = tessellate(&points).unwrap().cells;
     assert!(cells[0].iter().all(|corner| corner[0] <= 0.5 + 1e-9) && cells[1].iter().all(|corner| corner[0] >= 0.5 - 1e-9));
 }

@@ -11,7 +11,7 @@ use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
 use crate::parse::{parse_count, parse_format};
 use crate::remesh_args::{Remesh, Sample};
-use crate::shared_args::{DensityArgs, DrawArg, FixedArg, LongArgs, SpaceArgs};
+use crate::shared_args::{DensityArgs, DrawArg, FixedArg, LongArgs, MetricArg, SpaceArgs};
 use crate::stipple_args::Stipple;
 
 const EXAMPLES: &str = "\
@@ -89,6 +89,8 @@ pub struct Generate {
     #[command(flatten)]
     pub space: SpaceArgs,
     #[command(flatten)]
+    pub metric: MetricArg,
+    #[command(flatten)]
     pub density: DensityArgs,
     #[command(flatten)]
     pub fixed: FixedArg,
@@ -113,6 +115,8 @@ pub struct Optimize {
     pub seed: u64,
     #[command(flatten)]
     pub space: SpaceArgs,
+    #[command(flatten)]
+    pub metric: MetricArg,
     #[command(flatten)]
     pub density: DensityArgs,
     #[command(flatten)]
@@ -147,6 +151,8 @@ pub struct Compare {
     pub seed: u64,
     #[command(flatten)]
     pub space: SpaceArgs,
+    #[command(flatten)]
+    pub metric: MetricArg,
     #[command(flatten)]
     pub optimizer: OptimizerArgs,
     /// Where the table goes: .md .csv (a line a run) .json (all of it) .html (with pictures) [default: stdout, as plain text]

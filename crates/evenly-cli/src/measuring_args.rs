@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use evenly::ReconstructionFilter;
 
-use crate::shared_args::{DensityArgs, DrawArg, LongArgs, SpaceArgs};
+use crate::shared_args::{DensityArgs, DrawArg, LongArgs, MetricArg, SpaceArgs};
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
@@ -21,6 +21,8 @@ pub struct Analyze {
     pub certify: Option<f64>,
     #[command(flatten)]
     pub space: SpaceArgs,
+    #[command(flatten)]
+    pub metric: MetricArg,
     #[command(flatten)]
     pub density: DensityArgs,
     /// The power spectrum and the pair correlation too, with the effective Nyquist frequency and the oscillation; the curves in the JSON. On a mesh by ways along it (differential domain analysis)

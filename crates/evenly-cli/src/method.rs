@@ -74,6 +74,7 @@ const FLAGS: &[(&str, &[Method])] = &[
     ("damping", &[OptBeta]),
     ("spacing", &[PoissonDisk, Dart]),
     ("coverage", &[PoissonDisk]),
+    ("visible", &[PoissonDisk]),
     ("tries", &[Dart]),
 ];
 

@@ -73,12 +73,15 @@ pub struct OptimizerArgs {
 #[derive(Args)]
 #[command(next_help_heading = "Starts")]
 pub struct StartArgs {
-    /// No two points nearer than this, in the domain's units; how many there will be is chance
+    /// No two points nearer than this, in the domain's units, where a density is largest; how many there will be is chance
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
     /// No place farther from all points than this, in the domain's units: more than the spacing makes points fewer, and more random
     #[arg(long, value_name = "R", allow_negative_numbers = true, hide_short_help = true)]
     coverage: Option<f64>,
+    /// In a polygon only points that see each other keep the spacing: none counts across a slit, or between parts
+    #[arg(long, hide_short_help = true)]
+    visible: bool,
     /// Misses in a row after which a set is full, or without --spacing the spacing shrinks [default: 1000]
     #[arg(long, value_name = "K", allow_negative_numbers = true, hide_short_help = true)]
     tries: Option<usize>,
@@ -250,9 +253,10 @@ impl StartArgs {
     }
 
     fn poisson_disk(&self, fixed: &PointSet, n_points: Option<usize>, seed: u64) -> anyhow::Result<(PointSet, Option<String>)> {
-        let estimated = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(fixed.space(), n_points.unwrap_or(1)) };
+        let about = PoissonDiskParams::for_about_by_density(fixed.space(), fixed.density(), n_points.unwrap_or(1));
+        let estimated = PoissonDiskParams { seed, ..about };
         let params = self.spacing.map_or(estimated, |spacing| PoissonDiskParams { spacing, ..estimated });
-        let params = PoissonDiskParams { coverage: self.coverage, ..params };
+        let params = PoissonDiskParams { coverage: self.coverage, is_visible: self.visible, ..params };
         let points = if fixed.density().is_uniform() {
             poisson_disk_around(fixed, &params).map_err(by_flag)?
         } else {

@@ -14,6 +14,8 @@ pub struct Record {
     pub method: String,
     pub seed: Option<u64>,
     pub space: Space,
+    /// In whose lengths the measures are: those of the input, or of the unit square.
+    pub metric: &'static str,
     pub n_points: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameters: Option<serde_json::Value>,

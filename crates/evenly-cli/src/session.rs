@@ -32,6 +32,8 @@ pub struct Session<'a> {
     seconds: BTreeMap<&'static str, f64>,
     notes: Vec<String>,
     optimizer: Option<Box<dyn Optimizer>>,
+    /// What the points of the unit square are restored to before they are written.
+    pub restores_to: Option<PointSet>,
 }
 
 /// Threads for rayon: as many as asked for, or as there are cores.
@@ -70,6 +72,7 @@ impl<'a> Session<'a> {
             seconds: BTreeMap::new(),
             notes: Vec::new(),
             optimizer: None,
+            restores_to: None,
         })
     }
 
@@ -140,23 +143,28 @@ impl<'a> Session<'a> {
         let unmet = targets.zip(measures.as_ref()).map(|(targets, measures)| targets.unmet(measures));
         let recipe = record::recipe(self.seed);
         let start = Instant::now();
-        self.pool.install(|| write_points(&points, &self.draw, &recipe, &self.output))?;
+        let restored = self.restores_to.as_ref().filter(|_| self.output.format().holds_points());
+        let restored = restored.map(|given| points.restored_to(given)).transpose()?;
+        self.pool.install(|| write_points(restored.as_ref().unwrap_or(&points), &self.draw, &recipe, &self.output))?;
         self.seconds.insert("write", start.elapsed().as_secs_f64());
         if !self.args.quiet {
             self.summarize(&points, run.as_ref(), measures.as_ref());
         }
         let outcome = run.as_ref().map(|run| run.outcome);
         let is_unproved = unmet.is_none();
-        let has_missed = unmet.as_ref().is_some_and(|unmet| !unmet.is_empty());
+        let is_forced = outcome == Some(Outcome::Forced);
+        let has_missed = !is_forced && unmet.as_ref().is_some_and(|unmet| !unmet.is_empty());
         for UnmetTarget { name, wanted, measured } in unmet.iter().flatten() {
-            self.note(format!("not reached: {} is {measured:.6}, wanted {wanted}", name.replace('_', " ")));
+            let how = if is_forced { "forced" } else { "not reached" };
+            self.note(format!("{how}: {} is {measured:.6}, wanted {wanted}", name.replace('_', " ")));
         }
         let record = Record {
             version: record::VERSION,
             command: record::command(),
             method: method.name(),
             seed: self.seed,
-            space: points.space().clone(),
+            space: self.restores_to.as_ref().unwrap_or(&points).space().clone(),
+            metric: if self.restores_to.is_some() { "unit" } else { "input" },
             n_points: points.n_points(),
             parameters: self.optimizer.map(|optimizer| optimizer.parameters()),
             run,
@@ -188,6 +196,7 @@ impl<'a> Session<'a> {
             Some((Outcome::Converged, n)) => format!(", converged in {n} {steps}"),
             Some((Outcome::IterationsDone, n)) => format!(", {n} {steps}"),
             Some((Outcome::IterationLimit | Outcome::LostToRounding, n)) => format!(", not converged in {n} {steps}"),
+            Some((Outcome::Forced, n)) => format!(", at rest after {n} {steps}"),
             Some((Outcome::Cancelled, n)) => format!(", interrupted after {n} {steps}"),
             Some((Outcome::NothingToDo, _)) | None => String::new(),
         };

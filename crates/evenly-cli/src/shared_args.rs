@@ -25,6 +25,36 @@ pub struct SpaceArgs {
 }
 
 #[derive(Args)]
+pub struct MetricArg {
+    /// In which units distances are measured
+    ///
+    /// With unit, the domain is scaled to the unit square, each axis by itself, and points come back in
+    /// their own units: for axes of different kinds, as the factors of an experiment. Measures and
+    /// figures are those of the unit square.
+    #[arg(long, value_enum, default_value = "input")]
+    metric: Metric,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Metric {
+    /// Those of the input: both axes have the same
+    Input,
+    /// Parts of the domain's width and of its height
+    Unit,
+}
+
+impl MetricArg {
+    pub fn is_unit(&self) -> bool {
+        self.metric == Metric::Unit
+    }
+
+    /// The points as they are measured.
+    pub fn applied(&self, points: PointSet) -> Result<PointSet, evenly::Error> {
+        if self.is_unit() { points.in_unit_square() } else { Ok(points) }
+    }
+}
+
+#[derive(Args)]
 pub struct DensityArgs {
     /// More points where a picture is lighter; HOW: invert,contrast=C,gamma=G
     ///

@@ -43,6 +43,16 @@ pub struct Made {
     pub unmet: Vec<String>,
 }
 
+impl Made {
+    /// The points of the unit square of another set's domain, restored to that domain.
+    ///
+    /// # Errors
+    /// As [`PointSet::restored_to`].
+    pub fn restored_to(self, given: &PointSet) -> anyhow::Result<Self> {
+        Ok(Self { points: self.points.restored_to(given)?, ..self })
+    }
+}
+
 impl Wishes {
     /// Reads flags, as `--method=lloyd`.
     ///

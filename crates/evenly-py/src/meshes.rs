@@ -41,7 +41,8 @@ pub fn mesh(
         answer(move |py| {
             let ends = edges.iter().map(|edge| edge.ends.map(|v| v as i64)).collect();
             let triangles = triangles.iter().map(|corners| corners.map(|v| v as i64)).collect();
-            let whole = (array(py, vertices)?, array(py, triangles)?, array(py, ends)?, numbers(py, edges.iter().map(tag).collect()), said, sizes);
+            let whole =
+                (array(py, vertices)?, array(py, triangles)?, array(py, ends)?, numbers(py, edges.iter().map(tag).collect()), said, sizes);
             Ok(whole.into_pyobject(py)?.into_any().unbind())
         })
     })

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::answer::{Answer, answer, json, value_error};
 use crate::arrays::{Rows, array, numbers, rows};
 use crate::job::{Terms, run};
-use crate::spaces::{DensityArg, SpaceArg, point_set};
+use crate::spaces::{DensityArg, SpaceArg, measured_set, point_set};
 
 /// Positions, and the report as JSON.
 fn made(made: Made) -> anyhow::Result<Answer> {
@@ -31,8 +31,16 @@ pub fn generate(
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let n_fixed = fixed.shape()[0];
-    let fixed = point_set(py, &fixed, space, density, n_fixed)?;
-    run(py, Terms { threads, callback }, move |context, _| made(Wishes::parse(&words)?.generate(&fixed, n, context)?))
+    let is_unit = space.is_unit();
+    let given = point_set(py, &fixed, space, density, n_fixed)?;
+    run(py, Terms { threads, callback }, move |context, _| {
+        let wishes = Wishes::parse(&words)?;
+        if is_unit {
+            made(wishes.generate(&given.in_unit_square()?, n, context)?.restored_to(&given)?)
+        } else {
+            made(wishes.generate(&given, n, context)?)
+        }
+    })
 }
 
 #[pyfunction]
@@ -48,15 +56,23 @@ pub fn optimize(
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let n_fixed = fixed.shape()[0];
-    let fixed = point_set(py, &fixed, space, density, n_fixed)?;
-    let points = PointSet::new(fixed.space(), rows(&points)?).map_err(value_error)?;
-    run(py, Terms { threads, callback }, move |context, _| made(Wishes::parse(&words)?.optimize(&fixed, points, context)?))
+    let is_unit = space.is_unit();
+    let given = point_set(py, &fixed, space, density, n_fixed)?;
+    let points = PointSet::new(given.space(), rows(&points)?).map_err(value_error)?;
+    run(py, Terms { threads, callback }, move |context, _| {
+        let wishes = Wishes::parse(&words)?;
+        if is_unit {
+            made(wishes.optimize(&given.in_unit_square()?, points.in_unit_square()?, context)?.restored_to(&given)?)
+        } else {
+            made(wishes.optimize(&given, points, context)?)
+        }
+    })
 }
 
 /// All measures, as JSON.
 #[pyfunction]
 pub fn measure(py: Python, points: Rows, space: SpaceArg, density: Option<DensityArg>, threads: Option<usize>) -> PyResult<Py<PyAny>> {
-    let points = point_set(py, &points, space, density, 0)?;
+    let points = measured_set(py, &points, space, density)?;
     run(py, Terms { threads, callback: None }, move |_, _| {
         let said = json(&evenly::measure(&points)?)?;
         answer(move |py| Ok(said.into_pyobject(py)?.into_any().unbind()))
@@ -105,8 +121,13 @@ pub fn radial_arrays(py: Python, radial: RadialSpectrum) -> (Py<PyAny>, Py<PyAny
 }
 
 fn all(sets: &[Rows], space: SpaceArg) -> PyResult<Vec<PointSet>> {
+    let is_unit = space.is_unit();
     let space = space.space()?;
-    sets.iter().map(|set| PointSet::new(&space, rows(set)?).map_err(value_error)).collect()
+    let read = |set: &Rows| {
+        let points = PointSet::new(&space, rows(set)?);
+        if is_unit { points.and_then(|points| points.in_unit_square()) } else { points }.map_err(value_error)
+    };
+    sets.iter().map(read).collect()
 }
 
 /// The corners of the Delaunay triangles, as (3 k, 2) places: on a torus those near the seam reach out of the domain.
@@ -122,7 +143,7 @@ pub fn triangles(py: Python, points: Rows, space: SpaceArg, threads: Option<usiz
 /// A figure of points as SVG, by the command line's names of what is drawn.
 #[pyfunction]
 pub fn figure(py: Python, points: Rows, space: SpaceArg, density: Option<DensityArg>, draw: Vec<String>) -> PyResult<Py<PyAny>> {
-    let points = point_set(py, &points, space, density, 0)?;
+    let points = measured_set(py, &points, space, density)?;
     run(py, Terms { threads: None, callback: None }, move |_, _| {
         let draw: Vec<Draw> = draw.iter().map(|name| evenly_cli::draw(name)).collect::<Result<_, _>>()?;
         let svg = evenly_io::figure(&Subject::from(&points), &draw, "")?;

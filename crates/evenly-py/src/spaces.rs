@@ -14,11 +14,12 @@ pub type Rings = Vec<Vec<[f64; 2]>>;
 /// Parts, each an outer ring and its holes.
 type Parts = Vec<Vec<Vec<[f64; 2]>>>;
 
-/// A domain: `("torus" | "rectangle", origin, size)`, or the rings of a polygon.
+/// A domain: `("torus" | "rectangle", origin, size, is_unit)`, or the rings of a polygon and whether
+/// distances are those of the unit square.
 #[derive(FromPyObject)]
 pub enum SpaceArg {
-    Box(String, [f64; 2], [f64; 2]),
-    Polygon(Rings),
+    Box(String, [f64; 2], [f64; 2], bool),
+    Polygon(Rings, bool),
 }
 
 /// A density: none, an array of pixels, or the command line's words for a picture.
@@ -29,11 +30,16 @@ pub enum DensityArg<'py> {
 }
 
 impl SpaceArg {
+    pub fn is_unit(&self) -> bool {
+        let (Self::Box(.., is_unit) | Self::Polygon(_, is_unit)) = *self;
+        is_unit
+    }
+
     pub fn space(self) -> PyResult<Space> {
         match self {
-            Self::Box(kind, origin, size) if kind == "torus" => Ok(Torus::new(origin, size).map_err(value_error)?.into()),
-            Self::Box(_, origin, size) => Ok(Rectangle::new(origin, size).map_err(value_error)?.into()),
-            Self::Polygon(rings) => Ok(Space::from(&Polygon::from_rings(rings).map_err(value_error)?)),
+            Self::Box(kind, origin, size, _) if kind == "torus" => Ok(Torus::new(origin, size).map_err(value_error)?.into()),
+            Self::Box(_, origin, size, _) => Ok(Rectangle::new(origin, size).map_err(value_error)?.into()),
+            Self::Polygon(rings, _) => Ok(Space::from(&Polygon::from_rings(rings).map_err(value_error)?)),
         }
     }
 }
@@ -60,6 +66,13 @@ pub fn point_set(py: Python, positions: &Rows, space: SpaceArg, wanted: Option<D
         .with_density(&density(py, wanted)?)
         .with_fixed(n_fixed)
         .map_err(|error| value_error(error.to_string().replace("n_fixed", "fixed")))
+}
+
+/// The same, as they are measured.
+pub fn measured_set(py: Python, positions: &Rows, space: SpaceArg, wanted: Option<DensityArg>) -> PyResult<PointSet> {
+    let is_unit = space.is_unit();
+    let points = point_set(py, positions, space, wanted, 0)?;
+    if is_unit { points.in_unit_square().map_err(value_error) } else { Ok(points) }
 }
 
 /// A polygon's clean rings, its area and what was repaired.

@@ -102,6 +102,8 @@ pub enum Outcome {
     IterationsDone,
     /// The limit of iterations or passes came first; the best state reached is kept.
     IterationLimit,
+    /// At rest. Boundaries, fixed points or gaps in a density keep some targets from being met: the notes say where.
+    Forced,
     /// The stop criterion was met, but not any more after rounding to input units: the domain is too far from 0.
     LostToRounding,
     /// The run was cancelled; the state reached is kept, or the best, of methods that keep that.

@@ -56,6 +56,8 @@ pub(crate) struct Star {
     pub sides: Vec<f64>,
     /// By how much more than others its cell's area may be off, where it lies at a ragged border.
     pub leeway: f64,
+    /// The share of its targets by which it may miss them, where what cannot move has kept it from rest for long.
+    pub slack: f64,
     /// What the density makes of it.
     pub metric: Metric,
 }
@@ -138,7 +140,7 @@ impl Star {
         self.wedges.clear();
         self.is_mirror.clear();
         self.weights.clear();
-        (self.shift, self.leeway) = (DVec2::ZERO, 0.0);
+        (self.shift, self.leeway, self.slack) = (DVec2::ZERO, 0.0, 0.0);
         self.metric.clear();
     }
 

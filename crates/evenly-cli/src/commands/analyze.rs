@@ -34,7 +34,7 @@ pub fn run(args: &Analyze) -> anyhow::Result<u8> {
     }
     input::require_one_stdin(args.inputs.iter().chain(args.density.path()).chain(args.space.path()))?;
     let density = args.density.density()?;
-    let read = |path: &PathBuf| Ok(input::read_and_tell(path, &space)?.with_density(&density));
+    let read = |path: &PathBuf| Ok(args.metric.applied(input::read_and_tell(path, &space)?.with_density(&density))?);
     let sets: Vec<PointSet> = args.inputs.iter().map(read).collect::<anyhow::Result<_>>()?;
     let is_local = args.local || args.density.is_given();
     let pool = session::pool(args.measured.threads)?;

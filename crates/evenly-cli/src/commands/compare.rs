@@ -33,7 +33,8 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<u8> {
     if let Some((_, Some(note))) = &given {
         say(format_args!("note: {note}"));
     }
-    let given = given.map(|(points, _)| points);
+    let given = given.map(|(points, _)| args.metric.applied(points)).transpose()?;
+    let space = if args.metric.is_unit() { space.in_unit_square() } else { space };
     let n_points = match (&given, args.n_points) {
         (Some(points), _) => points.n_points(),
         (None, Some(n)) => n,

@@ -20,7 +20,9 @@ pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<u8> {
         begin.require_density()?;
     }
     let density = session.time("read", || args.density.density())?;
-    let fixed = args.fixed.points(space)?.with_density(&density);
+    let given = args.fixed.points(space)?.with_density(&density);
+    let fixed = args.metric.applied(given.clone())?;
+    session.restores_to = args.metric.is_unit().then_some(given);
     match optimizer {
         Some(optimizer) => {
             let n_points = args.n_points.context("--n-points is missing: how many?")?;

@@ -17,7 +17,9 @@ pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<u8> {
     let fixed = args.fixed.points(space.clone())?;
     let (points, note) = session.time("read", || input::read(&args.input, &space))?;
     let points = input::joined(&fixed, points)?;
-    let mut points = points.with_density(&session.time("read", || args.density.density())?);
+    let given = points.with_density(&session.time("read", || args.density.density())?);
+    let mut points = args.metric.applied(given.clone())?;
+    session.restores_to = args.metric.is_unit().then_some(given);
     if let Some(note) = note {
         session.note(note);
     }

@@ -135,7 +135,7 @@ impl Lab {
 
 /// A maximal set of about this many points.
 fn maximal(space: &Space, n_points: usize, beta: f64, seed: u64) -> Result<PointSet, Error> {
-    let of = |spacing: f64| poisson_disk(space, &PoissonDiskParams { spacing, coverage: Some(beta * spacing), seed });
+    let of = |spacing: f64| poisson_disk(space, &PoissonDiskParams { spacing, coverage: Some(beta * spacing), is_visible: false, seed });
     let spacing = PoissonDiskParams::for_about(space, n_points).spacing;
     if beta == 1.0 {
         return of(spacing);

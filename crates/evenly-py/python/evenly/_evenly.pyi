@@ -5,10 +5,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 _Rows: TypeAlias = NDArray[np.float64]
-_Box: TypeAlias = tuple[str, tuple[float, float], tuple[float, float]]
+_Box: TypeAlias = tuple[str, tuple[float, float], tuple[float, float], bool]
 _Parts: TypeAlias = Sequence[Sequence[Sequence[tuple[float, float]]]]
 _Rings: TypeAlias = Sequence[Sequence[tuple[float, float]]]
-_Space: TypeAlias = _Box | _Rings
+_Space: TypeAlias = _Box | tuple[_Rings, bool]
 _Density: TypeAlias = NDArray[np.float32] | str | None
 _Callback: TypeAlias = Callable[[int, float | None, float | None, float], bool | None] | None
 _Clean: TypeAlias = tuple[list[list[tuple[float, float]]], float, list[str]]

@@ -12,7 +12,7 @@ from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import run, threads_of
-from evenly._spaces import Pair, Space, native, space_of
+from evenly._spaces import Metric, Pair, Space, native, space_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 class _KnowsSpace(Protocol):
     @property
     def space(self) -> Space: ...
+    @property
+    def metric(self) -> Metric: ...
     @property
     def density(self) -> Any: ...
 
@@ -150,6 +152,7 @@ def measure(
     space: object = None,
     size: Pair | None = None,
     origin: Pair | None = None,
+    metric: Metric | None = None,
     density: Density = None,
     threads: int | None = None,
 ) -> Measures:
@@ -158,11 +161,13 @@ def measure(
     Parameters
     ----------
     points : array_like of shape (n, 2)
-        Three points or more, not all on one line; a `Points` brings its space and its density along.
+        Three points or more, not all on one line; a `Points` brings its space, its metric and its density along.
     space : {'torus', 'rect'}, polygon or file, optional
         The domain; 'torus' by default. See `generate`.
     size, origin : pair of float, optional
         Of a torus or rectangle; (1, 1) and (0, 0) by default.
+    metric : {'input', 'unit'}, optional
+        In which units distances are measured; see `generate`.
     density : optional
         In which to measure; see `generate`.
     threads : int, optional
@@ -190,7 +195,7 @@ def measure(
     """
     where = _space(points, space, size, origin)
     wanted = density_of(points.density if density is None and isinstance(points, _KnowsSpace) else density, where)
-    return run(lambda: _evenly.measure(rows(points), native(where), wanted, threads_of(threads)), _measures)
+    return run(lambda: _evenly.measure(rows(points), native(where, metric or _metric(points)), wanted, threads_of(threads)), _measures)
 
 
 def power_spectrum(
@@ -242,7 +247,7 @@ def power_spectrum(
         power, (width, height), step, frequencies, means, anisotropy = answer
         return PowerSpectrum(frozen(power.reshape(height, width)), (step[0], step[1]), frozen(frequencies), frozen(means), frozen(anisotropy))
 
-    return run(lambda: _evenly.power_spectrum(sets, native(where), float(max_frequency), threads_of(threads)), build)
+    return run(lambda: _evenly.power_spectrum(sets, where, float(max_frequency), threads_of(threads)), build)
 
 
 def radial_power(
@@ -286,7 +291,7 @@ def radial_power(
         frequencies, power, _, _, effective_nyquist, oscillation = answer
         return RadialPower(frozen(frequencies), frozen(power), effective_nyquist, oscillation)
 
-    return run(lambda: _evenly.radial_spectrum(sets, native(where), threads_of(threads)), build)
+    return run(lambda: _evenly.radial_spectrum(sets, where, threads_of(threads)), build)
 
 
 def pair_correlation(
@@ -326,20 +331,24 @@ def pair_correlation(
     def build(answer: tuple[Floats, Floats, Floats, Floats, float, float]) -> PairCorrelation:
         return PairCorrelation(frozen(answer[2]), frozen(answer[3]))
 
-    return run(lambda: _evenly.radial_spectrum(sets, native(where), threads_of(threads)), build)
+    return run(lambda: _evenly.radial_spectrum(sets, where, threads_of(threads)), build)
 
 
 def _space(points: object, space: object, size: Pair | None, origin: Pair | None) -> Space:
     return space_of(space, size, origin, points.space if isinstance(points, _KnowsSpace) else None)
 
 
-def _sets(points: Any, space: object, size: Pair | None, origin: Pair | None) -> tuple[list[Floats], Space]:
+def _metric(points: object) -> Metric:
+    return points.metric if isinstance(points, _KnowsSpace) else "input"
+
+
+def _sets(points: Any, space: object, size: Pair | None, origin: Pair | None) -> tuple[list[Floats], Any]:
     is_several = isinstance(points, (list, tuple)) and len(points) > 0 and np.ndim(points[0]) == 2
     sets = list(points) if is_several else [points]
-    spaces = {each.space for each in sets if isinstance(each, _KnowsSpace)}
+    spaces = {(each.space, each.metric) for each in sets if isinstance(each, _KnowsSpace)}
     if space is None and len(spaces) > 1:
         raise ValueError("the sets have different spaces")
-    return [rows(each) for each in sets], _space(sets[0], space, size, origin)
+    return [rows(each) for each in sets], native(_space(sets[0], space, size, origin), _metric(sets[0]))
 
 
 def _measures(text: str) -> Measures:

@@ -15,7 +15,7 @@ from evenly._arrays import Floats, Frozen, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._seeds import Seed, number
-from evenly._spaces import Polygon, native
+from evenly._spaces import Polygon
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -220,5 +220,5 @@ def mesh(
         )
 
     return run(
-        lambda: _evenly.mesh(native(shape), options, held, ways, lengths, wanted, threads_of(threads), told(callback)), build
+        lambda: _evenly.mesh([list(ring) for ring in shape.rings], options, held, ways, lengths, wanted, threads_of(threads), told(callback)), build
     )

@@ -13,7 +13,7 @@ from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._measures import Measures, measure
 from evenly._seeds import Seed, number
-from evenly._spaces import Pair, Polygon, Space, native, space_of
+from evenly._spaces import Metric, Pair, Polygon, Space, native, space_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -45,7 +45,7 @@ class Points(Frozen):
     seed: int
     """The same seed makes the same points."""
     outcome: str
-    """How the run ended: 'converged', 'iterations_done', 'iteration_limit', 'lost_to_rounding', 'cancelled', 'nothing_to_do', or 'made' where there was none."""
+    """How the run ended: 'converged', 'iterations_done', 'iteration_limit', 'forced', 'lost_to_rounding', 'cancelled', 'nothing_to_do', or 'made' where there was none."""
     iterations: int
     """Iterations or passes that were made."""
     notes: tuple[str, ...] = ()
@@ -54,6 +54,8 @@ class Points(Frozen):
     """For each target that was missed, in a sentence."""
     density: NDArray[np.float32] | str | None = None
     """The density that they follow: pixels, rows from the top, or a picture's file."""
+    metric: Metric = "input"
+    """In which units distances were measured."""
     run: dict[str, Any] = field(default_factory=dict)
     """All that the run has counted."""
 
@@ -78,7 +80,7 @@ class Points(Frozen):
     def svg(self, *draw: str) -> str:
         """Draw the points, or what else the command line's ``--draw`` knows, as SVG."""
         shown = list(draw) or ["points"]
-        return run(lambda: _evenly.figure(rows(self.positions), native(self.space), self.density, shown), str)
+        return run(lambda: _evenly.figure(rows(self.positions), native(self.space, self.metric), self.density, shown), str)
 
     def _repr_svg_(self) -> str | None:
         return self.svg(*self._shown()) if len(self) <= _MANY else None
@@ -100,6 +102,7 @@ def generate(
     space: object = None,
     size: Pair | None = None,
     origin: Pair | None = None,
+    metric: Metric | None = None,
     density: Density = None,
     fixed: "ArrayLike | object | None" = None,
     warp: bool = True,
@@ -118,6 +121,7 @@ def generate(
     schedule: Literal["in-turn", "summed"] | None = None,
     spacing: float | None = None,
     coverage: float | None = None,
+    visible: bool = False,
     tries: int | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
@@ -140,6 +144,9 @@ def generate(
         The domain; a torus, which is periodic, by default.
     size, origin : pair of float, optional
         Width and height of a torus or rectangle, and its lower left corner; (1, 1) and (0, 0) by default.
+    metric : {'input', 'unit'}, optional
+        In which units distances are measured: those of the input, or, with 'unit', parts of the domain's width and of its height. The latter is
+        for axes of different kinds, as the factors of an experiment; points come back in their own units, and measures are those of the unit square.
     density : array_like of shape (height, width), callable or path, optional
         How many points are wanted where, in proportion: pixels that span the domain, rows from the top; a function of arrays x and y; or a picture,
         ``photo.png`` or ``photo.png:invert,gamma=2``.
@@ -155,7 +162,7 @@ def generate(
         Of 'push-pull', one by one: in hexagonal spacings, and as a part of the mean.
     beta : float, optional
         Of 'well-spaced' and 'opt-beta': the coverage radius over the smallest distance. Below 0.707 no triangle is obtuse.
-    mode, side, tolerance, relaxation, local, damping, schedule, spacing, coverage, tries : optional
+    mode, side, tolerance, relaxation, local, damping, schedule, spacing, coverage, visible, tries : optional
         Of some methods, as on the command line: see ``evenly generate --help``.
     threads : int, optional
         All cores by default; the result does not depend on it.
@@ -184,6 +191,7 @@ def generate(
     True
     """
     where = space_of(space, size, origin, fixed.space if isinstance(fixed, Points) else None)
+    units = metric or (fixed.metric if isinstance(fixed, Points) else "input")
     chance = number(seed)
     options = words(
         {
@@ -206,6 +214,7 @@ def generate(
             "schedule": schedule,
             "spacing": spacing,
             "coverage": coverage,
+            "visible": visible,
             "tries": tries,
         }
     )
@@ -213,8 +222,8 @@ def generate(
     wanted = density_of(density, where)
     count = None if n is None else _count(n)
     return run(
-        lambda: _evenly.generate(count, held, native(where), wanted, options, threads_of(threads), told(callback)),
-        lambda answer: _points(answer, where, method, chance, wanted),
+        lambda: _evenly.generate(count, held, native(where, units), wanted, options, threads_of(threads), told(callback)),
+        lambda answer: _points(answer, where, units, method, chance, wanted),
     )
 
 
@@ -226,6 +235,7 @@ def optimize(
     space: object = None,
     size: Pair | None = None,
     origin: Pair | None = None,
+    metric: Metric | None = None,
     density: Density = None,
     fixed: "ArrayLike | object | None" = None,
     warp: bool = True,
@@ -250,12 +260,12 @@ def optimize(
     Parameters
     ----------
     points : array_like of shape (n, 2)
-        A `Points` brings its space and its density along.
+        A `Points` brings its space, its metric and its density along.
     method : str
         An optimiser, see `generate`; or 'warp', which only takes long density waves out.
     fixed : array_like of shape (k, 2), optional
         Points that stay where they are. They come first in the result; points at their places are left out.
-    seed, space, size, origin, density, warp, iterations, preset, min_distance, coverage_radius, capacity_tolerance, beta, mode, side, tolerance, relaxation, local, damping, schedule, threads, callback
+    seed, space, size, origin, metric, density, warp, iterations, preset, min_distance, coverage_radius, capacity_tolerance, beta, mode, side, tolerance, relaxation, local, damping, schedule, threads, callback
         As in `generate`.
 
     Returns
@@ -280,6 +290,7 @@ def optimize(
     """
     positions = rows(points)
     where = space_of(space, size, origin, points.space if isinstance(points, Points) else None)
+    units = metric or (points.metric if isinstance(points, Points) else "input")
     chance = number(seed)
     options = words(
         {
@@ -304,8 +315,8 @@ def optimize(
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     wanted = density_of(points.density if density is None and isinstance(points, Points) else density, where)
     return run(
-        lambda: _evenly.optimize(positions, held, native(where), wanted, options, threads_of(threads), told(callback)),
-        lambda answer: _points(answer, where, method, chance, wanted),
+        lambda: _evenly.optimize(positions, held, native(where, units), wanted, options, threads_of(threads), told(callback)),
+        lambda answer: _points(answer, where, units, method, chance, wanted),
     )
 
 
@@ -324,7 +335,7 @@ def _count(n: object) -> int:
 
 
 def _points(
-    answer: tuple[Floats, str], space: Space, method: str, seed: int, density: NDArray[np.float32] | str | None
+    answer: tuple[Floats, str], space: Space, metric: Metric, method: str, seed: int, density: NDArray[np.float32] | str | None
 ) -> Points:
     positions, text = answer
     said = json.loads(text)
@@ -338,6 +349,7 @@ def _points(
         iterations=counted.get("iterations", 0),
         notes=(*(space.repairs if isinstance(space, Polygon) else ()), *said["notes"]),
         unmet=tuple(said["unmet"]),
+        metric=metric,
         density=density if density is None or isinstance(density, str) else frozen(density.copy()),
         run=counted,
     )

@@ -4,7 +4,7 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias, cast
+from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from evenly import _evenly
 from evenly._arrays import rows
 
 Pair: TypeAlias = tuple[float, float]
+Metric: TypeAlias = Literal["input", "unit"]
+"""In which units distances are measured: those of the input, or parts of the domain's width and of its height."""
 
 
 @dataclass(frozen=True)
@@ -113,11 +115,14 @@ def space_of(space: object, size: Pair | None, origin: Pair | None, default: Spa
     return Polygon(space)
 
 
-def native(space: Space) -> Any:
+def native(space: Space, metric: Metric = "input") -> Any:
     """Return what the native half takes."""
+    if metric not in ("input", "unit"):
+        raise ValueError(f"metric is {metric!r}; it must be 'input' or 'unit'")
+    is_unit = metric == "unit"
     if isinstance(space, Polygon):
-        return [list(ring) for ring in space.rings]
-    return ("torus" if isinstance(space, Torus) else "rectangle", space.origin, space.size)
+        return ([list(ring) for ring in space.rings], is_unit)
+    return ("torus" if isinstance(space, Torus) else "rectangle", space.origin, space.size, is_unit)
 
 
 def frame(space: Space) -> tuple[Pair, Pair]:

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::raster::Raster;
 use super::walk::Walk;
-use crate::space::Domain;
+use crate::space::{Border, Domain};
 
 /// A density on a domain, 1 on average.
 #[derive(Debug, Clone)]
@@ -54,9 +54,7 @@ impl Field {
             root_scale: scale.sqrt(),
         };
         if let Some(border) = &domain.border {
-            let before = |&[a, b]: &[DVec2; 2]| field.flux(a * field.resolution, b * field.resolution).0;
-            let pixels: f64 = border.segments().iter().map(before).sum();
-            let inside = pixels * scale / (field.resolution.x * field.resolution.y);
+            let inside: f64 = field.part_masses(border).iter().sum();
             // Where there is next to nothing inside, nothing can be made of it.
             if inside > LEAST_INSIDE * border.area {
                 field.scale = scale * border.area / inside;
@@ -66,9 +64,23 @@ impl Field {
         field
     }
 
+    /// The mass of each part of a polygon's inside.
+    pub fn part_masses(&self, border: &Border) -> Vec<f64> {
+        let mut masses = vec![0.0; border.n_parts()];
+        for (number, [a, b]) in border.segments().iter().enumerate() {
+            masses[border.part_at(number)] += self.flux(a * self.resolution, b * self.resolution).0;
+        }
+        masses.iter().map(|pixels| pixels * self.scale / (self.resolution.x * self.resolution.y)).collect()
+    }
+
     /// Whether there are places without any density.
     pub fn has_gaps(&self) -> bool {
         self.raster.has_zeros
+    }
+
+    /// The largest density of the picture.
+    pub fn largest(&self) -> f64 {
+        self.scale * self.raster.largest()
     }
 
     /// The density at a place.
@@ -288,9 +300,7 @@ impl Field {
         let (low, high) = (low * self.resolution, high * self.resolution);
         let columns = (low.x as usize).min(self.raster.columns - 1)..(high.x.ceil() as usize).min(self.raster.columns);
         let width = |column: usize| (high.x.min(column as f64 + 1.0) - low.x.max(column as f64)).max(0.0);
-        let in_row = |row: usize| -> f64 {
-            columns.clone().filter(|&column| self.raster.value(column, row) > 0.0).map(width).sum()
-        };
+        let in_row = |row: usize| -> f64 { columns.clone().filter(|&column| self.raster.value(column, row) > 0.0).map(width).sum() };
         let pixels: f64 = self.rows(low.y, high.y).map(|(row, part)| part * in_row(row)).sum();
         pixels / (self.resolution.x * self.resolution.y)
     }

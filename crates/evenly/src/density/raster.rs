@@ -112,6 +112,11 @@ impl Raster {
         [f64::from(least), f64::from(most)]
     }
 
+    /// The largest density.
+    pub fn largest(&self) -> f64 {
+        self.extremes.iter().map(|tile| f64::from(tile[1])).fold(0.0, f64::max)
+    }
+
     /// Where the sums of all pixels, row by row, reach `sum`: a place in a pixel that is not zero, and its row.
     pub fn place(&self, sum: f64) -> (f64, usize) {
         let sum = sum.min(self.total().next_down());

@@ -16,7 +16,7 @@ pub struct PointMeasures {
     pub nearest: f64,
     /// Distance from the farthest place of its Voronoi cell to the nearest point.
     pub reach: f64,
-    /// Area of its Voronoi cell.
+    /// Area of its Voronoi cell; in a polygon of several parts in the mean of its part.
     pub capacity: f64,
     /// Whether that cell stays clear of a polygon's border. True in other domains.
     pub is_inner: bool,
@@ -40,16 +40,17 @@ pub fn measure_each(points: &PointSet) -> Result<Vec<PointMeasures>, Error> {
     let measured = if let Some(field) = points.field(&domain) {
         weigh(&domain, &field, &triangulation.positions[..n_distinct], spacing)?
     } else if domain.border.is_some() {
-        let seen = |Seen { spokes, cell, reach, is_inner }: Seen| {
-            of(&StarMeasures { reach, ..StarMeasures::of(spokes, cell, is_inner) }, is_inner)
-        };
+        let seen = |seen: Seen| of(&seen.measures(), seen.is_inner);
         look(&domain, &triangulation.positions, seen)?
     } else {
         let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
         let mut reader = StarReader::new(&triangulation, &outgoing);
         (0..n_distinct).map(|vertex| of(&reader.read(vertex), true)).collect()
     };
-    let alone = measured.iter().zip(&is_shared).map(|(&each, &is_shared)| PointMeasures { nearest: if is_shared { 0.0 } else { each.nearest }, ..each });
+    let alone = measured
+        .iter()
+        .zip(&is_shared)
+        .map(|(&each, &is_shared)| PointMeasures { nearest: if is_shared { 0.0 } else { each.nearest }, ..each });
     let alone: Vec<PointMeasures> = alone.collect();
     Ok(vertex_of.iter().map(|&vertex| alone[vertex as usize]).collect())
 }

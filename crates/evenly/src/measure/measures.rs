@@ -11,6 +11,7 @@ use super::sight::{Seen, look};
 use super::star::{StarMeasures, StarReader};
 use super::triangles;
 use super::weighted::{density_error, weigh};
+use crate::density::Field;
 use crate::error::Error;
 use crate::points::PointSet;
 use crate::triangulation::Triangulation;
@@ -20,8 +21,8 @@ use crate::triangulation::Triangulation;
 /// In a rectangle and in a polygon Voronoi cells are clipped to the domain, triangles are the dual of the clipped diagram,
 /// and the measures of order and the valences leave out vertices whose cell reaches the border. Angles are NaN where there is no triangle.
 ///
-/// In a polygon a border hides what lies behind it: distances are to points that a point sees, and its cell is what it sees of the places that are nearer to it than to other points
-/// that it sees. Behind corners cells may overlap, or leave a little out.
+/// In a polygon a border hides what lies behind it: but for `min_distance`, distances are to points that a point sees, and its cell is what it sees of the places that are nearer to it than to
+/// other points that it sees. Behind corners cells may overlap, or leave a little out.
 ///
 /// Where the density varies, distances, the coverage radius and capacities are measured in it: lengths are integrals of its root along segments, from a point to its Delaunay
 /// neighbours and, the mean of three, from a triangle's corners to its circumcentre; areas are integrals of the density itself. Its mean is 1. Angles are what they are.
@@ -33,13 +34,13 @@ pub struct Measures {
     pub hex_spacing: f64,
     /// Points that share their place with an earlier one. They count in the distances, and nowhere else.
     pub coincident_points: usize,
-    /// Smallest distance of two points; 1 at most, and for the hexagonal lattice. Infinite in a polygon where none sees another.
+    /// Smallest distance of two points; 1 at most, and for the hexagonal lattice. In a polygon whatever stands between them.
     pub min_distance: f64,
     /// Mean over the points of the distance to the nearest other; in a polygon over those that see another, NaN if none does.
     pub mean_distance: f64,
     /// Radius of the largest disk in the domain without a point; 0.577 for the hexagonal lattice.
     pub coverage_radius: f64,
-    /// `coverage_radius / min_distance`; 0.577 for the hexagonal lattice, below 0.707 no triangle is obtuse. Infinite if points coincide.
+    /// `coverage_radius / min_distance`, in a polygon over `min_distance_visible`; 0.577 for the hexagonal lattice, below 0.707 no triangle is obtuse. Infinite if points coincide.
     pub beta: f64,
     /// Mean over the points of |mean over its neighbours of exp(6 i theta)|: psi6.
     pub bond_order: f64,
@@ -48,9 +49,9 @@ pub struct Measures {
     pub bond_order_psa: f64,
     /// |mean over the points of the mean over its neighbours of exp(6 i theta)|: near 0 unless one lattice fills the domain.
     pub bond_order_global: f64,
-    /// Standard deviation of the Voronoi cells' areas.
+    /// Standard deviation of the Voronoi cells' areas. In a polygon of several parts from the mean of each one's part: no point goes from one to another.
     pub capacity_sd: f64,
-    /// Largest deviation of a Voronoi cell's area from the mean.
+    /// Largest deviation of a Voronoi cell's area from the mean, or from that of its part.
     pub capacity_max_deviation: f64,
     /// The energy of centroidal Voronoi tessellations: the sum over the cells of the squared distance to their point, integrated; relative to that of
     /// the hexagonal lattice, which has the least. NaN where the density varies.
@@ -87,6 +88,9 @@ pub struct BorderMeasures {
     pub uncovered_fraction: f64,
     /// Vertices without a triangle.
     pub isolated_points: usize,
+    /// In a polygon, the smallest distance of two points that see each other; infinite where none sees another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_distance_visible: Option<f64>,
     /// In a polygon, `capacity_max_deviation` of the cells that stay clear of the border: what methods with such a target hold. At a ragged border they allow a quarter more.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inner_capacity_max_deviation: Option<f64>,
@@ -97,6 +101,11 @@ impl Measures {
     pub(crate) fn capacity_deviation_held(&self) -> f64 {
         let inner = self.border.as_ref().and_then(|border| border.inner_capacity_max_deviation);
         inner.unwrap_or(self.capacity_max_deviation)
+    }
+
+    /// The smallest distance that methods with such a target keep: in a polygon that of points that see each other.
+    pub(crate) fn min_distance_held(&self) -> f64 {
+        self.border.as_ref().and_then(|border| border.min_distance_visible).unwrap_or(self.min_distance)
     }
 }
 
@@ -137,7 +146,7 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
 
     let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
     if domain.border.is_some() {
-        let seen = |Seen { spokes, cell, reach, is_inner }: Seen| StarMeasures { reach, ..StarMeasures::of(spokes, cell, is_inner) };
+        let seen = |seen: Seen| seen.measures();
         let stars = look(&domain, &triangulation.positions, seen)?;
         stars.into_iter().zip(&is_shared).for_each(|(star, &is_shared)| sums.add(star, mean_capacity, is_shared));
     } else {
@@ -152,11 +161,15 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         cvt_energy = f64::NAN;
     }
     // In a polygon's frame most of the mass may lie outside.
-    let density_error = field.filter(|_| domain.border.is_none()).and_then(|field| density_error(&domain, &field, points.normalized().1));
+    let density_error =
+        field.as_ref().filter(|_| domain.border.is_none()).and_then(|field| density_error(&domain, field, points.normalized().1));
 
     let triangles = triangles::measure(&triangulation)?;
     let n_inner = (sums.n_inner as f64).max(1.0);
-    let min_distance = if coincident_points > 0 { 0.0 } else { sums.min_distance / spacing };
+    let is_visible = domain.border.is_some();
+    let distance = |nearest: f64| if coincident_points > 0 { 0.0 } else { nearest / spacing };
+    let visible = distance(sums.min_distance);
+    let min_distance = if is_visible { distance(nearest_of_all(&triangulation, field.as_ref())) } else { visible };
     let coverage_radius = sums.reach / spacing;
     Ok(Measures {
         n_points,
@@ -165,7 +178,7 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         min_distance,
         mean_distance: sums.distance / (n_points - sums.n_alone) as f64 / spacing,
         coverage_radius,
-        beta: coverage_radius / min_distance,
+        beta: coverage_radius / visible,
         bond_order: sums.bond_order / n_inner,
         bond_order_psa: sums.bond_edges / (sums.neighbours as f64).max(1.0),
         bond_order_global: sums.bond[0].hypot(sums.bond[1]) / n_inner,
@@ -184,9 +197,21 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
             interior_angle_rms_deg: triangles.interior.angle_rms_deg(),
             uncovered_fraction: (1.0 - triangles.all.area / domain.area()).max(0.0),
             isolated_points: triangles.isolated_points,
+            min_distance_visible: is_visible.then_some(visible),
             inner_capacity_max_deviation: domain.border.is_some().then_some(sums.inner_capacity_deviation),
         }),
     })
+}
+
+/// The smallest distance of two points, whatever stands between them: the nearest of a point is a neighbour.
+fn nearest_of_all(triangulation: &Triangulation, field: Option<&Field>) -> f64 {
+    let Triangulation { half_edges, positions, .. } = triangulation;
+    let ends = (0..half_edges.origin.len() as u32).map(|h| [half_edges.origin[h as usize], half_edges.target(h)]);
+    let lengths = ends.map(|ends| {
+        let [from, to] = ends.map(|v| positions[v as usize]);
+        (to - from).length() * field.map_or(1.0, |field| field.stretch_between(from, to - from, f64::INFINITY))
+    });
+    lengths.fold(f64::INFINITY, f64::min)
 }
 
 /// Sums over all vertices of a triangulation.
@@ -240,7 +265,8 @@ impl Sums {
     fn take(&mut self, weighted: &[PointMeasures], spacing: f64, is_shared: &[bool]) {
         let deviations = || weighted.iter().map(|point| point.capacity - 1.0);
         self.min_distance = weighted.iter().map(|point| point.nearest).fold(f64::INFINITY, f64::min) * spacing;
-        self.distance = weighted.iter().zip(is_shared).filter(|(_, is_shared)| !**is_shared).map(|(point, _)| point.nearest * spacing).sum();
+        self.distance =
+            weighted.iter().zip(is_shared).filter(|(_, is_shared)| !**is_shared).map(|(point, _)| point.nearest * spacing).sum();
         self.reach = weighted.iter().map(|point| point.reach).fold(0.0, f64::max) * spacing;
         self.capacity_squares = deviations().map(|deviation| deviation * deviation).sum();
         self.capacity_deviation = deviations().map(f64::abs).fold(0.0, f64::max);

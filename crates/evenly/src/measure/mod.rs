@@ -19,10 +19,10 @@ mod voronoi;
 mod weighted;
 
 pub(crate) use correlation::{BINS, level};
-pub use each::{PointMeasures, measure_each};
 pub use differential::{differential_spectrum, local_spacings};
+pub use each::{PointMeasures, measure_each};
 pub use measures::{BorderMeasures, Measures, measure};
 pub use power::{PowerSpectrum, power_spectrum};
-pub use size_error::SizeErrors;
 pub use radial::{RadialSpectrum, radial_spectrum};
+pub use size_error::SizeErrors;
 pub use tessellation::{Tessellation, tessellate};

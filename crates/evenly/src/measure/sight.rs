@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 
+use super::star::StarMeasures;
 use crate::error::Error;
 use crate::space::Domain;
 use crate::star::Senses;
-use crate::triangulation::{LiveMesh, MIRROR, StarBuffer};
+use crate::triangulation::{LiveMesh, MIRROR, StarBuffer, part_shares};
 
 /// What one point sees, everything relative to it.
 pub(super) struct Seen<'a> {
@@ -17,10 +18,21 @@ pub(super) struct Seen<'a> {
     pub reach: f64,
     /// Whether the cell stays clear of the border.
     pub is_inner: bool,
+    /// The mean capacity of all over that of the part in which it lies.
+    pub share: f64,
+}
+
+impl Seen<'_> {
+    /// The same in numbers; the capacity relative to the mean of the part.
+    pub fn measures(&self) -> StarMeasures {
+        let star = StarMeasures::of(self.spokes, self.cell, self.is_inner);
+        StarMeasures { reach: self.reach, capacity: self.share * star.capacity, ..star }
+    }
 }
 
 /// Looks at what each of some distinct points sees, given in Hilbert order.
 pub(super) fn look<T: Send>(domain: &Domain, positions: &[DVec2], look: impl Fn(Seen) -> T + Sync) -> Result<Vec<T>, Error> {
+    let shares = domain.border.as_ref().map_or_else(Vec::new, |border| part_shares(border, positions, None));
     let n_points = positions.len();
     let order = (0..n_points as u32).collect();
     let mut mesh = LiveMesh::new(domain, None, positions.to_vec(), order, domain.hex_spacing(n_points))?;
@@ -39,7 +51,8 @@ pub(super) fn look<T: Send>(domain: &Domain, positions: &[DVec2], look: impl Fn(
             // Behind corners cells overlap: what this point sees may be nearer to one that it does not see.
             sight.outline.iter().map(|&corner| mesh.distance_to_seeing(v, near, at + corner)).fold(0.0, f64::max)
         };
-        let seen = look(Seen { spokes: &ways, cell: &sight.outline, reach: squared.sqrt(), is_inner });
+        let share = shares.get(v as usize).copied().unwrap_or(1.0);
+        let seen = look(Seen { spokes: &ways, cell: &sight.outline, reach: squared.sqrt(), is_inner, share });
         sight.outline.clear();
         seen
     })

@@ -7,6 +7,7 @@
 
 use serde::Serialize;
 
+use super::obstacles::conclude;
 use super::push_pull::{PushPullParams, push_and_pull};
 use super::targets::{Targets, UnmetTarget};
 use crate::error::Error;
@@ -35,7 +36,7 @@ impl CapacityParams {
     /// Checks the parameters, as [`capacity`] does before it begins.
     ///
     /// # Errors
-    /// [`Error::InvalidParameter`] for a tolerance that is not positive, or no passes.
+    /// [`Error::InvalidParameter`] for a negative tolerance, or no passes.
     pub fn validate(&self) -> Result<(), Error> {
         self.targets().validate()
     }
@@ -73,6 +74,6 @@ pub fn capacity(points: &mut PointSet, params: &CapacityParams, run: &mut RunCon
     params.validate()?;
     let mut report = Report::new("capacity", points.n_points());
     push_and_pull(points, &params.targets(), run, &mut report)?;
-    report.note_limit();
+    conclude(points, params, &mut report);
     Ok(report)
 }

@@ -15,6 +15,7 @@ mod tournament;
 use serde::Serialize;
 
 use self::gaps::Gaps;
+use super::obstacles::conclude;
 use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
 use super::targets::{ROUNDING, Targets, UnmetTarget, is_lost_to_rounding, under};
 use crate::error::Error;
@@ -71,8 +72,9 @@ impl FarthestPointParams {
 
 impl Targets for FarthestPointParams {
     fn unmet(&self, measures: &Measures) -> Vec<UnmetTarget> {
-        let missed = self.min_distance.filter(|&wanted| measures.min_distance < wanted - ROUNDING);
-        missed.map(|wanted| UnmetTarget { name: "min_distance", wanted, measured: measures.min_distance }).into_iter().collect()
+        let measured = measures.min_distance_held();
+        let missed = self.min_distance.filter(|&wanted| measured < wanted - ROUNDING);
+        missed.map(|wanted| UnmetTarget { name: "min_distance", wanted, measured }).into_iter().collect()
     }
 
     fn miss(&self, point: &PointMeasures) -> f64 {
@@ -144,6 +146,6 @@ pub fn farthest_point(points: &mut PointSet, params: &FarthestPointParams, run: 
     if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
         report.outcome = Outcome::LostToRounding;
     }
-    report.note_limit();
+    conclude(points, params, &mut report);
     Ok(report)
 }

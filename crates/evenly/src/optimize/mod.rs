@@ -5,6 +5,7 @@ mod cvt;
 mod distmesh;
 mod farthest_point;
 mod lloyd;
+mod obstacles;
 mod opt_beta;
 mod prepare;
 mod procrustes;

@@ -20,6 +20,7 @@ use serde::Serialize;
 
 use self::local_ratio::local_ratio;
 use self::nelder_mead::minimize;
+use super::obstacles::conclude;
 use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
 use super::targets::{Targets, UnmetTarget, beta_miss, is_lost_to_rounding, unmet_beta, validate_beta};
 use crate::error::Error;
@@ -125,7 +126,7 @@ pub fn opt_beta(points: &mut PointSet, params: &OptBetaParams, run: &mut RunCont
     if report.outcome == Outcome::Converged && is_lost_to_rounding(points, params) {
         report.outcome = Outcome::LostToRounding;
     }
-    report.note_limit();
+    conclude(points, params, &mut report);
     Ok(report)
 }
 

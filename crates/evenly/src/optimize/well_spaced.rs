@@ -13,6 +13,7 @@
 
 use serde::Serialize;
 
+use super::obstacles::conclude;
 use super::push_pull::{PushPullParams, push_and_pull};
 use super::targets::{Targets, UnmetTarget, unmet_beta, validate_beta};
 use crate::error::Error;
@@ -138,10 +139,10 @@ pub fn well_spaced(points: &mut PointSet, params: &WellSpacedParams, run: &mut R
     report.notes.extend(params.advice(points));
     push_and_pull(points, &params.targets(), run, &mut report)?;
     // The ratio may be met though the distance and the radius are not.
-    let has_missed = matches!(report.outcome, Outcome::IterationLimit | Outcome::LostToRounding);
+    let has_missed = matches!(report.outcome, Outcome::IterationLimit | Outcome::Forced | Outcome::LostToRounding);
     if has_missed && measure(points).is_ok_and(|measures| params.unmet(&measures).is_empty()) {
         report.outcome = Outcome::Converged;
     }
-    report.note_limit();
+    conclude(points, params, &mut report);
     Ok(report)
 }

@@ -52,6 +52,15 @@ impl PointSet {
         Ok(Self { space, density: Density::uniform(), positions, n_fixed: 0 })
     }
 
+    /// Takes points that lie in the domain, to rounding: those that do not are put at its nearest place.
+    fn inside(space: &Space, mut positions: Vec<[f64; 2]>) -> Result<Self, Error> {
+        let domain = space.domain();
+        for point in positions.iter_mut().filter(|point| !domain.holds(**point)) {
+            *point = domain.restore(domain.normalize(*point));
+        }
+        Self::new(space, positions)
+    }
+
     /// The same points, of which the first `n_fixed` stay where they are, whatever method runs: the others find their places around them.
     ///
     /// # Errors
@@ -72,6 +81,41 @@ impl PointSet {
     /// How many points stay where they are: the first.
     pub fn n_fixed(&self) -> usize {
         self.n_fixed
+    }
+
+    /// The same points in the [unit square](Space::in_unit_square) of their domain, with the density that
+    /// goes with them. Those that stay, stay.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] where two points that stay share a place there.
+    ///
+    /// # Example
+    /// ```
+    /// use evenly::{PointSet, Rectangle, RunContext, WellSpacedParams, jittered, well_spaced};
+    ///
+    /// // 20 trials at 100 to 260 degrees and 1 to 5 bars.
+    /// let factors = PointSet::new(Rectangle::new([100.0, 1.0], [160.0, 4.0])?, Vec::new())?;
+    /// let mut trials = jittered(factors.space().in_unit_square(), 20, 1)?;
+    /// well_spaced(&mut trials, &WellSpacedParams::default(), &mut RunContext::default())?;
+    /// let trials = trials.restored_to(&factors)?;
+    /// assert!(trials.positions().iter().all(|&[x, y]| (100.0..=260.0).contains(&x) && (1.0..=5.0).contains(&y)));
+    /// # Ok::<(), evenly::Error>(())
+    /// ```
+    pub fn in_unit_square(&self) -> Result<Self, Error> {
+        let positions = self.positions.iter().map(|&p| self.space.to_unit(p)).collect();
+        Self::inside(&self.space.in_unit_square(), positions)?.with_density(&self.density).with_fixed(self.n_fixed)
+    }
+
+    /// Points of the [unit square](Space::in_unit_square) of another set's domain, restored to that domain.
+    /// The first of them are the points of the other set that stay, and come back with their coordinates.
+    ///
+    /// # Errors
+    /// Those of [`PointSet::new`] and [`PointSet::with_fixed`].
+    pub fn restored_to(&self, other: &Self) -> Result<Self, Error> {
+        let (space, fixed) = (&other.space, &other.positions[..other.n_fixed]);
+        let moved = self.positions.iter().skip(fixed.len()).map(|&p| space.of_unit(p)).collect();
+        let all = fixed.iter().copied().chain(Self::inside(space, moved)?.positions).collect();
+        Self::new(space, all)?.with_density(&self.density).with_fixed(fixed.len())
     }
 
     /// The same points where another density is wanted: methods and measures will go by it. Uniform at first.

@@ -9,8 +9,9 @@
 //! proportional to the area of its squares, and a cell may throw once no cell around it has an earlier time. The points are distributed as those of darts
 //! thrown one after the other at the whole domain, but are found in the order in which memory lies.
 //!
-//! Cost: O(n). The result is maximal to within 1e-13 of the spacing, or to what coordinates far from 0 are rounded by. In a polygon points count that see each other; the cells of the frame are
-//! gone through, so its parts should not lie far from each other; in passages narrower than a 64th of a cell, and on the far side of walls that are thinner than the spacing, a point may be missing.
+//! Cost: O(n). The result is maximal to within 1e-13 of the spacing, or to what coordinates far from 0 are rounded by. In a polygon the cells of the frame are
+//! gone through, so its parts should not lie far from each other; in passages narrower than a 64th of a cell, and where walls hide points, on the far side of those that are thinner than the spacing,
+//! a point may be missing.
 
 mod cells;
 
@@ -29,11 +30,14 @@ use crate::space::{Border, Domain, GRID, Space, snap};
 /// What [`poisson_disk`] can be told.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoissonDiskParams {
-    /// No two points are nearer than this, in input units. On a torus at most its shorter side.
+    /// No two points are nearer to each other than this, in input units. On a torus at most its shorter side.
     pub spacing: f64,
     /// No place is farther from all points than this, in input units; `spacing` or more. `None` for `spacing` itself: more makes points fewer, and
     /// more random.
     pub coverage: Option<f64>,
+    /// Whether a polygon's border hides points from each other: distances and coverage then count
+    /// between places that see each other alone.
+    pub is_visible: bool,
     /// The same seed gives the same points.
     pub seed: u64,
 }
@@ -53,7 +57,7 @@ impl PoissonDiskParams {
         let spacing = unit * 0.5 * (border + (border * border + 4.0 * DENSITY).sqrt());
         let [width, height] = space.size();
         let widest = if space.is_periodic() { width.min(height) } else { f64::INFINITY };
-        Self { spacing: spacing.min(widest), coverage: None, seed: 0 }
+        Self { spacing: spacing.min(widest), coverage: None, is_visible: false, seed: 0 }
     }
 
     /// Checks the parameters, as [`poisson_disk`] does before it begins.
@@ -62,9 +66,7 @@ impl PoissonDiskParams {
     /// As there.
     pub fn validate(&self, space: &Space) -> Result<(), Error> {
         let invalid = |name, value: f64, expected| Err(Error::InvalidParameter { name, value: value.to_string(), expected });
-        if !(self.spacing > 0.0 && self.spacing.is_finite()) {
-            return invalid("spacing", self.spacing, "positive and finite");
-        }
+        self.validate_spacing()?;
         if space.is_periodic() && self.spacing > f64::min(space.size()[0], space.size()[1]) {
             return invalid("spacing", self.spacing, "at most the torus' shorter side, or a point is too near to itself");
         }
@@ -72,6 +74,15 @@ impl PoissonDiskParams {
             return invalid("coverage", radius, "the spacing or more, and 8 times that at most");
         }
         validate_spacing(space, self.spacing)
+    }
+}
+
+impl PoissonDiskParams {
+    pub(super) fn validate_spacing(&self) -> Result<(), Error> {
+        if self.spacing > 0.0 && self.spacing.is_finite() {
+            return Ok(());
+        }
+        Err(Error::InvalidParameter { name: "spacing", value: self.spacing.to_string(), expected: "positive and finite" })
     }
 }
 
@@ -112,8 +123,9 @@ pub(super) fn rounding_margin(space: &Space, spacing: f64) -> f64 {
 /// ```
 /// use evenly::{PoissonDiskParams, Rectangle, measure, poisson_disk};
 ///
-/// let params = PoissonDiskParams { spacing: 0.02, coverage: None, seed: 7 };
-/// let points = poisson_disk(Rectangle::new([0.0, 0.0], [1.0, 1.0])?, &params)?;
+/// let space = Rectangle::new([0.0, 0.0], [1.0, 1.0])?.into();
+/// let params = PoissonDiskParams { spacing: 0.02, seed: 7, ..PoissonDiskParams::for_about(&space, 1) };
+/// let points = poisson_disk(space, &params)?;
 /// let measures = measure(&points)?;
 /// assert!(measures.min_distance * measures.hex_spacing >= 0.02 && measures.coverage_radius * measures.hex_spacing <= 0.02);
 /// # Ok::<(), evenly::Error>(())
@@ -229,7 +241,7 @@ impl Darts {
         let coverage = params.coverage.unwrap_or(params.spacing) * scale;
         let margin = rounding_margin(space, params.spacing);
         let slack = (coverage - spacing) * (1.0 - ROUNDING);
-        let cells = Cells::new(domain, spacing, (coverage + slack) * (1.0 + margin));
+        let cells = Cells::new(domain, params.is_visible, spacing, (coverage + slack) * (1.0 + margin));
         let n_cells = cells.points.len();
         let mut darts = Self {
             cells,
@@ -334,7 +346,7 @@ impl Darts {
 
     /// Whether a point sees a square: all of it, or of a small one what matters.
     fn is_seen(&self, point: DVec2, centre: DVec2, half: DVec2, level: u8) -> bool {
-        self.cells.domain.border.as_ref().is_none_or(|border| {
+        self.cells.walls.as_ref().is_none_or(|border| {
             let is_open = !border.reaches(point.min(centre - half), point.max(centre + half));
             // A centre on the border itself is seen as what lies before it is.
             is_open || level >= FINE && (level >= FINEST || border.sees(point, centre + BEFORE * (point - centre)))
@@ -344,7 +356,7 @@ impl Darts {
     /// Whether no point is nearer to a place than the root of `squared`.
     fn is_farther(&self, cell: usize, place: DVec2, squared: f64) -> bool {
         // No distance from NaN is below anything.
-        !self.cells.around(cell).any(|point| point.distance_squared(place) < squared && self.cells.domain.sees(point, place))
+        !self.cells.around(cell).any(|point| point.distance_squared(place) < squared && self.cells.sees(point, place))
     }
 
     /// A place that covers the dart's, and is not too near to a point.

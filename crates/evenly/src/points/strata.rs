@@ -14,10 +14,15 @@ const LARGEST: f64 = 0.5;
 pub(super) fn places(region: &Region, domain: &Domain, n_points: usize, random: &mut Random) -> Vec<DVec2> {
     let total: f64 = region.triangles().iter().map(area).sum();
     let mut pieces = Vec::new();
-    region.triangles().iter().for_each(|&triangle| cut(triangle, LARGEST * total / n_points as f64, &mut pieces));
-    let centres: Vec<DVec2> = pieces.iter().map(|[a, b, c]| (a + b + c) / 3.0).collect();
+    // Part by part, so that each has as many points as it should, to within one.
+    for part in region.parts() {
+        let mut of_part = Vec::new();
+        part.iter().for_each(|&triangle| cut(triangle, LARGEST * total / n_points as f64, &mut of_part));
+        let centres: Vec<DVec2> = of_part.iter().map(|[a, b, c]| (a + b + c) / 3.0).collect();
+        pieces.extend(hilbert_order(&centres, domain.size).into_iter().map(|k| of_part[k as usize]));
+    }
     let total: f64 = pieces.iter().map(area).sum();
-    let mut along = hilbert_order(&centres, domain.size).into_iter().map(|k| &pieces[k as usize]);
+    let mut along = pieces.iter();
     let (mut passed, mut piece) = (0.0, along.next());
     let mut places = Vec::with_capacity(n_points);
     for k in 0..n_points {

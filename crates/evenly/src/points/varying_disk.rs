@@ -25,7 +25,7 @@ const MOST_WANTED: usize = 16;
 /// Darts around each point at the end.
 const TRIES: usize = 40;
 
-/// As [`poisson_disk`], but the spacing of the parameters is that where the density is its mean: elsewhere it is shorter or longer by its root. The set keeps the density.
+/// As [`poisson_disk`], but the spacing of the parameters is that where the density is largest: elsewhere points keep more, in proportion to the inverse of its root. The set keeps the density.
 ///
 /// # Errors
 /// As there; [`Error::InvalidParameter`] also for a coverage radius where the density varies.
@@ -33,7 +33,23 @@ pub fn poisson_disk_by_density(space: impl Into<Space>, density: &Density, param
     let space = space.into();
     let domain = space.domain();
     let Some(field) = density.field(&domain) else { return poisson_disk(space, params) };
+    params.validate_spacing()?;
+    let params = PoissonDiskParams { spacing: params.spacing * field.largest().sqrt(), ..*params };
     params.validate(&space)?;
+    by_mean(&space, &domain, field, density, &params)
+}
+
+impl PoissonDiskParams {
+    /// As [`Self::for_about`], for [`poisson_disk_by_density`].
+    pub fn for_about_by_density(space: &Space, density: &Density, n_points: usize) -> Self {
+        let about = Self::for_about(space, n_points);
+        let largest = density.field(&space.domain()).map_or(1.0, |field| field.largest());
+        Self { spacing: about.spacing / largest.sqrt(), ..about }
+    }
+}
+
+/// The same, with the spacing where the density is its mean.
+fn by_mean(space: &Space, domain: &Domain, field: Field, density: &Density, params: &PoissonDiskParams) -> Result<PointSet, Error> {
     if let Some(coverage) = params.coverage {
         return Err(Error::InvalidParameter {
             name: "coverage",
@@ -43,7 +59,8 @@ pub fn poisson_disk_by_density(space: impl Into<Space>, density: &Density, param
     }
     let mean = params.spacing / domain.restore_length(1.0);
     let expected = (0.7 * domain.area() / (mean * mean)).ceil().max(1.0);
-    let mut disks = Disks { bins: bins_for(&domain, mean), domain, field, mean, places: Vec::new() };
+    let mut disks =
+        Disks { bins: bins_for(domain, mean), domain: domain.clone(), field, mean, is_visible: params.is_visible, places: Vec::new() };
     let mut random = Random::new(params.seed, 6);
     loop {
         let before = disks.places.len();
@@ -56,7 +73,7 @@ pub fn poisson_disk_by_density(space: impl Into<Space>, density: &Density, param
         }
     }
     disks.fill_gaps(&mut random);
-    Ok(PointSet::from_normalized(space, disks.places.into_iter()).with_density(density))
+    Ok(PointSet::from_normalized(space.clone(), disks.places.into_iter()).with_density(density))
 }
 
 /// Exactly `n_points` points, as [`poisson_disk_of`] makes them, by the density, which the set keeps.
@@ -65,14 +82,13 @@ pub fn poisson_disk_by_density(space: impl Into<Space>, density: &Density, param
 /// As [`poisson_disk_of`].
 pub fn poisson_disk_of_density(space: impl Into<Space>, density: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
     let space = space.into();
-    if density.is_uniform() {
-        return poisson_disk_of(space, n_points, seed);
-    }
+    let domain = space.domain();
+    let Some(field) = density.field(&domain) else { return poisson_disk_of(space, n_points, seed) };
     PointSet::validate(&space, n_points)?;
     let mut wanted = n_points + n_points / 10 + 8;
     loop {
         let params = PoissonDiskParams { seed, ..PoissonDiskParams::for_about(&space, wanted) };
-        let points = poisson_disk_by_density(&space, density, &params)?;
+        let points = by_mean(&space, &domain, field.clone(), density, &params)?;
         if points.n_points() >= n_points {
             return eliminate(&points, n_points);
         }
@@ -89,6 +105,7 @@ struct Disks {
     field: Field,
     /// The radius where the density is its mean.
     mean: f64,
+    is_visible: bool,
     bins: RadiusBins,
     places: Vec<DVec2>,
 }
@@ -99,7 +116,7 @@ impl Disks {
         let place = self.domain.land(place);
         let radius = radius(&self.field, place, self.mean);
         let is_free = self.domain.contains(place)
-            && !self.bins.near(place, radius).any(|(other, _)| self.domain.sees(self.places[other as usize], place));
+            && !self.bins.near(place, radius).any(|(other, _)| !self.is_visible || self.domain.sees(self.places[other as usize], place));
         if is_free {
             self.bins.push(place, radius);
             self.places.push(place);
@@ -142,13 +159,14 @@ mod tests {
         let spaces: [Space; 2] =
             [Torus::new([0.0, 0.0], [1.0, 1.0]).unwrap().into(), Rectangle::new([5.0, -1.0], [4.0, 1.0]).unwrap().into()];
         for space in spaces {
-            let params = PoissonDiskParams { seed: 3, ..PoissonDiskParams::for_about(&space, 2000) };
+            let params = PoissonDiskParams { seed: 3, ..PoissonDiskParams::for_about_by_density(&space, &ramp(), 2000) };
             let points = poisson_disk_by_density(space, &ramp(), &params).unwrap();
             assert!(points.n_points().abs_diff(2000) < 300, "{}", points.n_points());
             let (domain, positions) = points.normalized();
             let field = ramp().field(&domain).unwrap();
-            let mean = params.spacing / domain.restore_length(1.0);
+            let mean = params.spacing * field.largest().sqrt() / domain.restore_length(1.0);
             let radii: Vec<f64> = positions.iter().map(|&p| radius(&field, p, mean)).collect();
+            assert!(radii.iter().all(|&radius| radius >= params.spacing / domain.restore_length(1.0) * (1.0 - 1e-9)));
             for (k, &p) in positions.iter().enumerate() {
                 let is_far = |j: usize| domain.spoke(p, positions[j]).length() >= radii[k].min(radii[j]) * (1.0 - 1e-9);
                 assert!((0..k).all(is_far));

@@ -230,9 +230,18 @@ impl From<&Polygon> for Space {
         let Polygon { corners, border, .. } = polygon;
         // Its border is clean, so nothing crosses.
         let inside = planar(Graph { points: corners, border, lines: &[] }).unwrap_or_default();
-        let triangles = inside.half_edges.triangles().map(|t| t.map(|v| inside.positions[v as usize])).collect();
-        let segments = border.iter().map(|ends| ends.map(|v| corners[v as usize])).collect();
-        Region::new(polygon.frame, polygon.rings.clone(), polygon.area, triangles, segments).into()
+        let part_of = inside.half_edges.components();
+        let mut parts = vec![Vec::new(); part_of.iter().max().map_or(0, |&last| last as usize + 1)];
+        for (corners, &part) in inside.half_edges.triangles().zip(&part_of) {
+            parts[part as usize].push(corners.map(|v| inside.positions[v as usize]));
+        }
+        // Each segment belongs to the part on its left.
+        let half_edges = (0..inside.half_edges.origin.len() as u32).filter(|&h| inside.half_edges.is_border(h));
+        let ends = |h: u32| [inside.half_edges.origin[h as usize], inside.half_edges.target(h)].map(|v| inside.source[v as usize]);
+        let by_ends: HashMap<[u32; 2], u32> = half_edges.map(|h| (ends(h), part_of[h as usize / 3])).collect();
+        let part = |ends: &[u32; 2]| by_ends.get(ends).copied().unwrap_or_default();
+        let segments = border.iter().map(|ends| (ends.map(|v| corners[v as usize]), part(ends))).collect();
+        Region::new(polygon.frame, polygon.rings.clone(), polygon.area, parts, segments).into()
     }
 }
 

@@ -1,14 +1,18 @@
-//! [`Border`]: the segments around a polygon, in bins, so that it is soon said what is inside, what is near, and what hides what.
+//! [`Border`]: the segments around a polygon, so kept that it is soon said what is inside, what is near, and what hides what: in a tree; and bins tell how far the nearest are.
 
 use glam::DVec2;
 
 use super::grid::{GRID, snap};
+use super::segment_tree::SegmentTree;
 use crate::predicates::is_left_turn;
 
 /// A border of straight segments in a domain [0, size]; the inside is on their left.
 #[derive(Debug)]
 pub(crate) struct Border {
     segments: Vec<[DVec2; 2]>,
+    /// The part of the inside on each segment's left, and the parts' areas.
+    parts: Vec<u32>,
+    part_areas: Vec<f64>,
     /// The area inside.
     pub area: f64,
     /// Places nearer to the border than this cannot be told from those on it.
@@ -18,8 +22,7 @@ pub(crate) struct Border {
     resolution: DVec2,
     /// The shorter side of a bin.
     side: f64,
-    by_bin: Lists,
-    by_row: Lists,
+    tree: SegmentTree,
     bins: Vec<Bin>,
 }
 
@@ -30,35 +33,6 @@ struct Bin {
     clearance: u16,
     /// Whether it lies inside; where no segment reaches it.
     is_inside: bool,
-}
-
-/// Lists of segments, one after the other.
-#[derive(Debug)]
-struct Lists {
-    starts: Vec<u32>,
-    members: Vec<u32>,
-}
-
-impl Lists {
-    /// Each pair is a list's number and a member of it.
-    fn new(n_lists: usize, pairs: impl Iterator<Item = (usize, u32)> + Clone) -> Self {
-        let mut starts = vec![0u32; n_lists + 1];
-        pairs.clone().for_each(|(list, _)| starts[list + 1] += 1);
-        for list in 0..n_lists {
-            starts[list + 1] += starts[list];
-        }
-        let mut ends = starts.clone();
-        let mut members = vec![0; starts[n_lists] as usize];
-        for (list, member) in pairs {
-            members[ends[list] as usize] = member;
-            ends[list] += 1;
-        }
-        Self { starts, members }
-    }
-
-    fn of(&self, list: usize) -> &[u32] {
-        &self.members[self.starts[list] as usize..self.starts[list + 1] as usize]
-    }
 }
 
 /// Where a way first meets the border.
@@ -82,43 +56,45 @@ const FARTHER: f64 = 4.0;
 const TRIES: i32 = 40;
 
 impl Border {
-    /// Segments that do not cross, in a domain of this size, around an area inside. Places nearer to them than `tolerance` count as on the border.
-    pub fn new(segments: Vec<[DVec2; 2]>, size: DVec2, area: f64, tolerance: f64) -> Self {
+    /// Segments that do not cross, each with the part of the inside on its left, in a domain of this size, around parts of these areas. Places nearer to them than `tolerance` count as on the border.
+    pub fn new(segments: Vec<[DVec2; 2]>, parts: Vec<u32>, part_areas: Vec<f64>, size: DVec2, tolerance: f64) -> Self {
         let wanted = (BINS * segments.len()).clamp(FEWEST_BINS, MOST_BINS) as f64;
         let square = (size.x * size.y / wanted).sqrt();
         let n_bins = (size / square).round().clamp(DVec2::ONE, DVec2::splat(wanted)).to_array().map(|n| n as usize);
         let resolution = DVec2::new(n_bins[0] as f64, n_bins[1] as f64) / size;
         let mut border = Self {
-            area,
+            area: part_areas.iter().sum(),
+            parts,
+            part_areas,
             tolerance: tolerance.max(4.0 * GRID),
             n_bins,
             resolution,
             side: (1.0 / resolution).min_element(),
-            by_bin: Lists { starts: Vec::new(), members: Vec::new() },
-            by_row: Lists { starts: Vec::new(), members: Vec::new() },
+            tree: SegmentTree::new(&segments),
             bins: vec![Bin { clearance: FAR, is_inside: false }; n_bins[0] * n_bins[1]],
             segments,
         };
-        let numbered = || (0u32..).zip(&border.segments);
-        let rows = numbered().flat_map(|(k, segment)| border.rows(segment).map(move |row| (row, k)));
-        let by_row = Lists::new(n_bins[1], rows);
-        let reached = |row: usize, segment: &[DVec2; 2]| border.columns_in(row, segment).map(move |column| column + row * n_bins[0]);
-        let in_bins =
-            numbered().flat_map(|(k, segment)| border.rows(segment).flat_map(move |row| reached(row, segment)).map(move |bin| (bin, k)));
-        let by_bin = Lists::new(n_bins[0] * n_bins[1], in_bins);
-        (border.by_row, border.by_bin) = (by_row, by_bin);
+        border.mark_bins();
         border.find_clearances();
         border.find_inside();
         border
     }
 
-    fn find_clearances(&mut self) {
-        let [n_columns, n_rows] = self.n_bins;
-        for bin in 0..self.bins.len() {
-            if !self.by_bin.of(bin).is_empty() {
-                self.bins[bin].clearance = 0;
+    /// Marks the bins that segments reach.
+    fn mark_bins(&mut self) {
+        let mut bins = std::mem::take(&mut self.bins);
+        for segment in &self.segments {
+            for row in self.rows(segment) {
+                let columns = self.columns_in(row, segment);
+                let first = row * self.n_bins[0];
+                bins[first + columns.start()..=first + columns.end()].iter_mut().for_each(|bin| bin.clearance = 0);
             }
         }
+        self.bins = bins;
+    }
+
+    fn find_clearances(&mut self) {
+        let [n_columns, n_rows] = self.n_bins;
         // Forth with the neighbours before each bin, and back with those after it.
         let mut pass = |is_back: bool| {
             for k in 0..n_columns * n_rows {
@@ -150,7 +126,7 @@ impl Border {
                     continue;
                 }
                 let centre = snap((DVec2::new(column as f64, row as f64) + 0.5) / self.resolution);
-                self.bins[bin].is_inside = *before.get_or_insert_with(|| self.is_enclosed(centre, row));
+                self.bins[bin].is_inside = *before.get_or_insert_with(|| self.is_enclosed(centre));
             }
         }
     }
@@ -182,20 +158,22 @@ impl Border {
         self.column(p.x) + self.row(p.y) * self.n_bins[0]
     }
 
-    /// Whether an odd number of segments lies to the right of a place in a row of bins. Exact.
-    fn is_enclosed(&self, p: DVec2, row: usize) -> bool {
-        let is_right = |&k: &u32| {
-            let [a, b] = self.segments[k as usize];
+    /// Whether an odd number of segments lies to the right of a place. Exact.
+    fn is_enclosed(&self, p: DVec2) -> bool {
+        let mut is_odd = false;
+        let may_hold = |low: DVec2, high: DVec2| low.y <= p.y && p.y < high.y && p.x <= high.x;
+        self.tree.find(may_hold, |[a, b], _| {
             let (is_up, is_down) = (a.y <= p.y && p.y < b.y, b.y <= p.y && p.y < a.y);
-            (is_up && is_left_turn(b - a, p - a)) || (is_down && is_left_turn(a - b, p - b))
-        };
-        self.by_row.of(row).iter().filter(|k| is_right(k)).count() % 2 == 1
+            is_odd ^= (is_up && is_left_turn(b - a, p - a)) || (is_down && is_left_turn(a - b, p - b));
+            false
+        });
+        is_odd
     }
 
     /// Whether a place on the grid lies inside. Exact, but on the border itself.
     pub fn contains(&self, p: DVec2) -> bool {
         let bin = self.bins[self.bin(p)];
-        if bin.clearance > 0 { bin.is_inside } else { self.is_enclosed(p, self.row(p.y)) }
+        if bin.clearance > 0 { bin.is_inside } else { self.is_enclosed(p) }
     }
 
     /// Whether a place lies inside or on the border, as far as that can be told.
@@ -203,9 +181,14 @@ impl Border {
         self.contains(p) || self.is_on(p, self.tolerance)
     }
 
-    /// Whether a place is nearer to the border than this; less than a bin's side.
+    /// Whether a place is nearer to the border than this.
     fn is_on(&self, p: DVec2, distance: f64) -> bool {
-        self.by_bin.of(self.bin(p)).iter().any(|&k| distance_to(p, self.segments[k as usize]) <= distance)
+        self.clearance(p) <= distance && self.any_in(p - distance, p + distance, |segment| distance_to(p, segment) <= distance)
+    }
+
+    /// Whether one of the segments near a box is what is looked for.
+    fn any_in(&self, low: DVec2, high: DVec2, mut is_it: impl FnMut([DVec2; 2]) -> bool) -> bool {
+        self.tree.find(|a, b| a.cmple(high).all() && b.cmpge(low).all(), |segment, _| is_it(segment))
     }
 
     /// A place inside, clear of the border, next to `p`, which is held; or itself, if there is none.
@@ -219,7 +202,7 @@ impl Border {
             let step = 4.0 * self.tolerance * FARTHER.powi(k);
             directions.clone().map(move |direction| (step, snap(p + step * direction)))
         });
-        let found = found.find(|&(step, q)| is_good(q, (0.25 * step).min(self.side)) && self.sees(p, q));
+        let found = found.find(|&(step, q)| is_good(q, 0.25 * step) && self.sees(p, q));
         found.map_or(p, |(_, q)| q)
     }
 
@@ -230,20 +213,21 @@ impl Border {
         f64::from(bins.saturating_sub(1)) * self.side
     }
 
-    /// Leaves the segments in or near a box, each once.
+    /// Leaves the segments whose boxes meet a box.
     pub fn find_near(&self, low: DVec2, high: DVec2, found: &mut Vec<u32>) {
         found.clear();
-        for row in self.row(low.y)..=self.row(high.y) {
-            for column in self.column(low.x)..=self.column(high.x) {
-                found.extend(self.by_bin.of(column + row * self.n_bins[0]));
+        let meets = |a: DVec2, b: DVec2| a.cmple(high).all() && b.cmpge(low).all();
+        self.tree.find(meets, |[a, b], number| {
+            if meets(a.min(b), a.max(b)) {
+                found.push(number);
             }
-        }
-        found.sort_unstable();
-        found.dedup();
-        found.retain(|&k| {
-            let [a, b] = self.segments[k as usize];
-            a.min(b).cmple(high).all() && a.max(b).cmpge(low).all()
+            false
         });
+    }
+
+    /// Whether the box of a segment meets a box.
+    pub fn is_near(&self, low: DVec2, high: DVec2) -> bool {
+        self.any_in(low, high, |[a, b]| a.min(b).cmple(high).all() && a.max(b).cmpge(low).all())
     }
 
     /// Whether all of a box lies outside.
@@ -254,13 +238,39 @@ impl Border {
     /// Whether a segment has a place in a box.
     pub fn reaches(&self, low: DVec2, high: DVec2) -> bool {
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
-        self.clearance(centre) <= half.length()
-            && (self.row(low.y)..=self.row(high.y)).any(|row| {
-                (self.column(low.x)..=self.column(high.x)).any(|column| {
-                    let segments = self.by_bin.of(column + row * self.n_bins[0]);
-                    segments.iter().any(|&k| reaches_box(self.segments[k as usize], centre, half))
-                })
-            })
+        self.clearance(centre) <= half.length() && self.any_in(low, high, |segment| reaches_box(segment, centre, half))
+    }
+
+    /// How many parts the inside has, which nowhere hang together.
+    pub fn n_parts(&self) -> usize {
+        self.part_areas.len()
+    }
+
+    /// The area of each part.
+    pub fn part_areas(&self) -> &[f64] {
+        &self.part_areas
+    }
+
+    /// The part on the left of a segment.
+    pub fn part_at(&self, segment: usize) -> usize {
+        self.parts[segment] as usize
+    }
+
+    /// The part in which a place inside lies: that of the first segment on its right.
+    pub fn part_of(&self, p: DVec2) -> usize {
+        let mut first = (f64::INFINITY, 0);
+        let may_hold = |low: DVec2, high: DVec2| low.y <= p.y && p.y < high.y && p.x <= high.x;
+        self.tree.find(may_hold, |[a, b], number| {
+            // The inside is on the left, so what goes up bounds it on the right.
+            if a.y <= p.y && p.y < b.y {
+                let x = a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
+                if x >= p.x - self.tolerance && x < first.0 {
+                    first = (x, number);
+                }
+            }
+            false
+        });
+        self.parts.get(first.1 as usize).map_or(0, |&part| part as usize)
     }
 
     /// All segments.
@@ -274,29 +284,36 @@ impl Border {
 
     /// The first meeting of the way from `from` to `to` with a segment that it crosses from the inside.
     pub fn first_meeting(&self, from: DVec2, to: DVec2) -> Option<Meeting> {
+        let mut first: Option<Meeting> = None;
+        self.meets_any(from, to, |part, segment| {
+            if first.is_none_or(|first| part < first.part) {
+                first = Some(Meeting { part, segment });
+            }
+            false
+        });
+        first
+    }
+
+    /// Whether one of the segments that a way crosses from the inside, after so much of it, is what is looked for.
+    #[inline]
+    fn meets_any(&self, from: DVec2, to: DVec2, mut is_it: impl FnMut(f64, [DVec2; 2]) -> bool) -> bool {
         let way = to - from;
         if self.clearance(from) > way.length() {
-            return None;
+            return false;
         }
-        let mut first: Option<Meeting> = None;
-        for row in self.rows(&[from, to]) {
-            for column in self.columns_in(row, &[from, to]) {
-                for &k in self.by_bin.of(column + row * self.n_bins[0]) {
-                    let segment = self.segments[k as usize];
-                    if let Some(part) = meets(from, way, segment)
-                        && first.is_none_or(|first| part < first.part)
-                    {
-                        first = Some(Meeting { part, segment });
-                    }
-                }
-            }
-        }
-        first
+        let (middle, half) = (0.5 * (from + to), 0.5 * way);
+        let size = half.abs();
+        let may_hold = |low: DVec2, high: DVec2| {
+            // The separating axes of the way and a box.
+            let (apart, extent) = (0.5 * (low + high) - middle, 0.5 * (high - low));
+            apart.abs().cmple(extent + size).all() && apart.perp_dot(half).abs() <= extent.x * size.y + extent.y * size.x
+        };
+        self.tree.find(may_hold, |segment, _| meets(from, way, segment).is_some_and(|part| is_it(part, segment)))
     }
 
     /// Whether no segment stands between two places inside.
     pub fn sees(&self, a: DVec2, b: DVec2) -> bool {
-        self.first_meeting(a, b).is_none()
+        !self.meets_any(a, b, |_, _| true)
     }
 
     /// Where a point inside comes to that is to go to `to`: there, or along the segment that stands in its way, or up to it.

@@ -4,6 +4,7 @@ mod border;
 mod domain;
 mod grid;
 mod region;
+mod segment_tree;
 
 pub(crate) use border::Border;
 pub(crate) use domain::Domain;
@@ -52,6 +53,18 @@ impl Rectangle {
     pub fn new(origin: [f64; 2], size: [f64; 2]) -> Result<Self, Error> {
         validate(origin, size)?;
         Ok(Self { origin, size })
+    }
+}
+
+impl Rectangle {
+    /// A place's part of the width and of the height.
+    fn to_unit(self, p: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| ((p[axis] - self.origin[axis]) / self.size[axis]).clamp(0.0, 1.0))
+    }
+
+    /// The place with these parts of the width and of the height.
+    fn of_unit(self, p: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| (self.origin[axis] + p[axis] * self.size[axis]).min(self.origin[axis] + self.size[axis]))
     }
 }
 
@@ -158,6 +171,35 @@ impl Space {
     /// The inside of a polygon, where it is that.
     pub fn region(&self) -> Option<&Region> {
         if let Self::Polygon(region) = self { Some(region) } else { None }
+    }
+
+    fn frame(&self) -> Rectangle {
+        Rectangle { origin: self.origin(), size: self.size() }
+    }
+
+    /// The same domain with its frame scaled to the unit square, each axis by itself.
+    ///
+    /// Where the axes have units of their own, as the factors of an experiment do, a distance means
+    /// something only there: points that are spread in it are restored by
+    /// [`PointSet::restored_to`](crate::PointSet::restored_to).
+    #[must_use]
+    pub fn in_unit_square(&self) -> Self {
+        let (origin, size) = ([0.0; 2], [1.0; 2]);
+        match self {
+            Self::Torus(_) => Torus { origin, size }.into(),
+            Self::Rectangle(_) => Rectangle { origin, size }.into(),
+            Self::Polygon(region) => region.in_unit_square().into(),
+        }
+    }
+
+    /// A place's part of the frame's width and height.
+    pub(crate) fn to_unit(&self, p: [f64; 2]) -> [f64; 2] {
+        self.frame().to_unit(p)
+    }
+
+    /// The place with these parts of the frame's width and height.
+    pub(crate) fn of_unit(&self, p: [f64; 2]) -> [f64; 2] {
+        self.frame().of_unit(p)
     }
 
     /// The domain's area, in input units squared.

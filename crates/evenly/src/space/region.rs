@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde::ser::SerializeStruct as _;
 
 use super::border::Border;
-use super::{Domain, Rectangle, ulp};
+use super::{Domain, Rectangle, snap, ulp};
 
 /// What the rings of a [`Polygon`](crate::Polygon) enclose, its border included; `Space::from(&polygon)` makes one. Cheap to clone.
 #[derive(Debug, Clone)]
@@ -18,25 +18,31 @@ struct Inner {
     frame: Rectangle,
     rings: Vec<Vec<[f64; 2]>>,
     area: f64,
-    /// In normalised coordinates: triangles that fill it, and what is around them.
+    /// In normalised coordinates: triangles that fill it, part by part, and what is around them.
     triangles: Vec<[DVec2; 3]>,
+    n_triangles: Vec<usize>,
     border: Arc<Border>,
 }
 
 impl Region {
-    /// The inside of rings in input units, given in normalised coordinates as well: by triangles that fill it, and by segments with the inside on their left.
+    /// The inside of rings in input units, given in normalised coordinates as well: by triangles that fill each part, and by segments with the inside on their left, each with its part.
     pub(crate) fn new(
         frame: Rectangle,
         rings: Vec<Vec<[f64; 2]>>,
         area: f64,
-        triangles: Vec<[DVec2; 3]>,
-        segments: Vec<[DVec2; 2]>,
+        parts: Vec<Vec<[DVec2; 3]>>,
+        segments: Vec<([DVec2; 2], u32)>,
     ) -> Self {
         let domain = Domain::new(frame.origin, frame.size, false);
         let rounding = (0..2).map(|axis| ulp(frame.origin[axis].abs().max((frame.origin[axis] + frame.size[axis]).abs())));
         let unit = domain.restore_length(1.0);
-        let border = Border::new(segments, domain.size, area / unit / unit, 2.0 * rounding.fold(0.0, f64::max) / unit);
-        Self(Arc::new(Inner { frame, rings, area, triangles, border: Arc::new(border) }))
+        let (segments, part_of) = segments.into_iter().unzip();
+        let filled = |triangles: &Vec<[DVec2; 3]>| triangles.iter().map(|[a, b, c]| 0.5 * (b - a).perp_dot(c - a)).sum::<f64>();
+        let areas = parts.iter().map(filled).collect();
+        let border = Border::new(segments, part_of, areas, domain.size, 2.0 * rounding.fold(0.0, f64::max) / unit);
+        let n_triangles = parts.iter().map(Vec::len).collect();
+        let triangles = parts.into_iter().flatten().collect();
+        Self(Arc::new(Inner { frame, rings, area, triangles, n_triangles, border: Arc::new(border) }))
     }
 
     /// The rings, in input units, without a closing point: the inside is on their left.
@@ -57,6 +63,25 @@ impl Region {
     /// Triangles that fill it, in normalised coordinates.
     pub(crate) fn triangles(&self) -> &[[DVec2; 3]] {
         &self.0.triangles
+    }
+
+    /// The same, for each of its parts that nowhere hang together.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &[[DVec2; 3]]> {
+        let mut left = &self.0.triangles[..];
+        self.0.n_triangles.iter().map(move |&n| left.split_off(..n).unwrap_or_default())
+    }
+
+    /// The same with the frame scaled to the unit square, each axis by itself.
+    pub(super) fn in_unit_square(&self) -> Self {
+        let Inner { frame, rings, area, border, .. } = &*self.0;
+        let Rectangle { origin, size } = *frame;
+        let square = Rectangle { origin: [0.0; 2], size: [1.0; 2] };
+        let scale = 1.0 / Domain::new(origin, size, false).size;
+        let rings = rings.iter().map(|ring| ring.iter().map(|&p| frame.to_unit(p)).collect()).collect();
+        let parts = self.parts().map(|triangles| triangles.iter().map(|corners| corners.map(|p| snap(p * scale))).collect());
+        let segments = border.segments().iter().enumerate();
+        let segments = segments.map(|(number, ends)| (ends.map(|p| snap(p * scale)), border.part_at(number) as u32));
+        Self::new(square, rings, area / (size[0] * size[1]), parts.collect(), segments.collect())
     }
 
     pub(super) fn domain(&self) -> Domain {

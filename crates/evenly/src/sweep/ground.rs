@@ -78,6 +78,8 @@ pub(crate) trait Ground: Sync + Sized {
     fn is_dirty(&self, point: u32) -> bool;
     fn clean(&self, point: u32);
     fn soil_all(&self);
+    /// Counts a visit at which something was wrong with a point.
+    fn count_unrest(&self, _point: u32) {}
 
     /// Makes the spokes of `v` Delaunay, and reads its star.
     fn read(&self, v: u32, territory: Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
@@ -163,6 +165,10 @@ impl Ground for LiveMesh {
 
     fn soil_all(&self) {
         self.soil_all();
+    }
+
+    fn count_unrest(&self, point: u32) {
+        self.patience.count(point);
     }
 
     fn read(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {

@@ -86,6 +86,8 @@ pub(super) fn visit<G: Ground>(
     }
     if unrest.is_none() {
         mesh.clean(v);
+    } else {
+        mesh.count_unrest(v);
     }
     Ok(unrest)
 }

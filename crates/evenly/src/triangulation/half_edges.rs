@@ -153,6 +153,30 @@ impl HalfEdges {
         all
     }
 
+    /// For each triangle the number of the part in which it lies; parts hang together by edges. They are numbered in the order of their first triangles.
+    pub fn components(&self) -> Vec<u32> {
+        let mut component = vec![u32::MAX; self.n_triangles()];
+        let mut n_found = 0;
+        for first in 0..component.len() {
+            if component[first] != u32::MAX {
+                continue;
+            }
+            let mut stack = vec![first];
+            component[first] = n_found;
+            while let Some(t) = stack.pop() {
+                for &twin in self.twin[3 * t..3 * t + 3].iter().filter(|&&twin| twin != BORDER) {
+                    let across = twin as usize / 3;
+                    if component[across] == u32::MAX {
+                        component[across] = n_found;
+                        stack.push(across);
+                    }
+                }
+            }
+            n_found += 1;
+        }
+        component
+    }
+
     /// Proves that the triangles make a manifold: twins belong together, no half-edge is there twice, and each of so many vertices has one fan.
     pub fn check_manifold(&self, n_vertices: usize) -> Result<(), String> {
         let mut seen = HashSet::new();

@@ -10,12 +10,13 @@ use super::frame::{FRAME, framed};
 use super::half_edges::{BORDER, next};
 use super::held::{Bonds, Held};
 use super::mesh::Triangulation;
+use super::patience::Patience;
 use super::planar::{Crossing, Graph, planar};
 use super::shared::{SharedMesh, Territory};
 use crate::density::Field;
 use crate::error::Error;
 use crate::predicates::is_in_circle;
-use crate::space::Domain;
+use crate::space::{Border, Domain};
 
 /// A triangulation of points that [`relocate`](Self::relocate) moves and [`read`](Self::read) shows, from several threads.
 ///
@@ -36,6 +37,10 @@ pub(crate) struct LiveMesh {
     pub(super) field: Option<Field>,
     /// Which points stay where they are; empty if none does.
     fixed: Vec<bool>,
+    /// For each point the mean capacity over that of its part, where the domain has several; else empty.
+    pub(super) shares: Vec<f64>,
+    /// How patiently points that something keeps from rest are visited.
+    pub patience: Patience,
     /// What holds the points of a mesh with a border.
     pub(super) held: Option<Held>,
     /// Whether a point and its copies have gone different ways, or the cover has become too small.
@@ -49,12 +54,28 @@ pub(super) const LEAST_DENSITY: f64 = 1e-6;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Outside;
 
+/// For each point the mean capacity over that of the part of a polygon in which it lies: no point goes from one part to another, so each part has a mean of its own. Empty where there is one part.
+pub(crate) fn part_shares(border: &Border, points: &[DVec2], field: Option<&Field>) -> Vec<f64> {
+    if border.n_parts() < 2 {
+        return Vec::new();
+    }
+    let parts: Vec<usize> = points.par_iter().map(|&p| border.part_of(p)).collect();
+    let masses = field.map_or_else(|| border.part_areas().to_vec(), |field| field.part_masses(border));
+    let mut n_points = vec![0.0; masses.len()];
+    parts.iter().for_each(|&part| n_points[part] += 1.0);
+    let mean = masses.iter().sum::<f64>() / points.len() as f64;
+    parts.into_iter().map(|part| mean * n_points[part] / masses[part].max(f64::MIN_POSITIVE)).collect()
+}
+
 impl LiveMesh {
     /// The Delaunay triangulation of distinct points, given in Hilbert order. Stars will show lengths in units of `spacing`.
     pub fn new(base: &Domain, field: Option<Field>, points: Vec<DVec2>, order: Vec<u32>, spacing: f64) -> Result<Self, Error> {
         let triangulation = if base.is_periodic { delaunay(base, points, order)? } else { framed(base, points, order)? };
         let n_frame = if base.is_periodic { 0 } else { FRAME.len() };
         let Triangulation { half_edges, positions, domain, copies, order } = triangulation;
+        let is_patient = domain.border.is_some() || field.as_ref().is_some_and(Field::has_gaps);
+        let patience = if is_patient { Patience::of(order.len()) } else { Patience::default() };
+        let shares = domain.border.as_ref().map_or_else(Vec::new, |border| part_shares(border, &positions[..order.len()], field.as_ref()));
         Ok(Self {
             mesh: SharedMesh::new(&half_edges, positions.iter().map(|p| p.to_array())),
             base: base.clone(),
@@ -65,6 +86,8 @@ impl LiveMesh {
             spacing,
             field,
             fixed: Vec::new(),
+            shares,
+            patience,
             held: None,
             is_torn: AtomicBool::new(false),
         })
@@ -88,6 +111,8 @@ impl LiveMesh {
             spacing,
             field: None,
             fixed: Vec::new(),
+            shares: Vec::new(),
+            patience: Patience::default(),
             held: Some(Held::new(bonds, &planar)),
             is_torn: AtomicBool::new(false),
             order: planar.source,
@@ -98,8 +123,17 @@ impl LiveMesh {
     pub fn with_fixed(mut self, n_fixed: usize) -> Self {
         if n_fixed > 0 {
             self.fixed = self.order.iter().map(|&index| (index as usize) < n_fixed).collect();
+            self.patience = Patience::of(self.order.len());
         }
         self
+    }
+
+    pub fn border(&self) -> Option<&Border> {
+        self.domain.border.as_deref()
+    }
+
+    pub fn has_fixed(&self) -> bool {
+        !self.fixed.is_empty()
     }
 
     /// Whether a point stays where it is.
@@ -113,7 +147,7 @@ impl LiveMesh {
         *self = match &self.held {
             None => {
                 let rebuilt = Self::new(&self.base, self.field.clone(), places, self.order.clone(), self.spacing)?;
-                Self { fixed: std::mem::take(&mut self.fixed), ..rebuilt }
+                Self { fixed: std::mem::take(&mut self.fixed), patience: std::mem::take(&mut self.patience), ..rebuilt }
             }
             Some(held) => {
                 let bonds = held.bonds();

@@ -53,12 +53,6 @@ pub(crate) struct Moments {
 }
 
 impl Sight {
-    /// Whether the border does not come as near to a place as this.
-    pub fn is_alone(&mut self, at: DVec2, distance: f64, border: &Border) -> bool {
-        border.find_near(at - distance, at + distance, &mut self.near);
-        self.near.is_empty()
-    }
-
     /// Leaves what a point at `at` sees of its cell in `outline`, and the hull of it in `cell`. Whether that is less than the cell.
     pub(super) fn look(&mut self, at: DVec2, cell: &WallCell, border: &Border) -> bool {
         self.outline.clear();

@@ -100,7 +100,18 @@ impl LiveMesh {
         if let Some(held) = &self.held {
             self.scale_sizes(held, v, buffer);
         }
+        buffer.star.slack = self.patience.slack(v, buffer.star.leeway > 0.0);
+        if let Some(share) = self.shares.get(v as usize) {
+            let star = &mut buffer.star;
+            let mass = star.metric.mass.unwrap_or_else(|| star.measure_cell());
+            star.metric.mass = Some(mass * share);
+        }
         Ok(())
+    }
+
+    /// Whether a point or one of its neighbours is fixed.
+    pub fn is_at_fixed(&self, v: u32, spokes: &[Spoke]) -> bool {
+        self.has_fixed() && (self.is_fixed(v) || spokes.iter().any(|spoke| self.is_fixed(self.point(spoke.vertex))))
     }
 
     /// Looks at the stars of all points, in order.

@@ -27,7 +27,19 @@ pub(super) struct Side {
 impl WallCell {
     /// Cuts the cell of a vertex at `at` out of the domain [0, size], by the bisectors with its neighbours.
     pub fn clip(&mut self, at: DVec2, size: DVec2, neighbours: impl Iterator<Item = (u32, DVec2)>) {
-        let (low, high) = (-at, size - at);
+        self.begin(at, size);
+        for (vertex, way) in neighbours {
+            self.cut(vertex, way);
+        }
+    }
+
+    /// Makes the cell all of the domain [0, size].
+    pub fn begin(&mut self, at: DVec2, size: DVec2) {
+        self.begin_in(-at, size - at);
+    }
+
+    /// Makes the cell a box around the vertex, given relative to it.
+    pub fn begin_in(&mut self, low: DVec2, high: DVec2) {
         let wall = |corner: DVec2, direction: DVec2, distance: f64| Side {
             corner,
             vertex: MIRROR,
@@ -36,14 +48,17 @@ impl WallCell {
         };
         self.sides.clear();
         self.sides.extend([
-            wall(low, DVec2::NEG_Y, at.y),
+            wall(low, DVec2::NEG_Y, -low.y),
             wall(DVec2::new(high.x, low.y), DVec2::X, high.x),
             wall(high, DVec2::Y, high.y),
-            wall(DVec2::new(low.x, high.y), DVec2::NEG_X, at.x),
+            wall(DVec2::new(low.x, high.y), DVec2::NEG_X, -low.x),
         ]);
-        for (vertex, way) in neighbours {
-            self.cut(vertex, way);
-        }
+    }
+
+    /// Whether some of the cell is nearer to a neighbour.
+    pub fn is_cut_by(&self, way: DVec2) -> bool {
+        let half = 0.5 * way.length_squared();
+        self.sides.iter().any(|side| side.corner.dot(way) > half)
     }
 
     /// Cuts off what is nearer to a neighbour.

@@ -10,61 +10,37 @@ use crate::space::Border;
 
 /// By how much more than others the area of a cell may be off that a polygon's border cuts: in its nooks it must.
 const LEEWAY: f64 = 0.25;
+/// Half the side of the box, in spacings, in which a point looks first for what it sees.
+const NEARBY: f64 = 2.5;
 /// So many points are looked at, at most, for those that stand in for hidden neighbours.
 const MOST_SEEN: usize = 400;
 
 impl LiveMesh {
     /// Whether nothing of a border is so near to a point that its star could be another there, and none of its neighbours is the frame's.
     pub(super) fn is_clear(&self, border: &Border, v: u32, buffer: &mut StarBuffer) -> bool {
-        let StarBuffer { star, spokes, sight, .. } = buffer;
+        let StarBuffer { star, spokes, .. } = buffer;
         let at = self.mesh.position(v);
         let reach = (0..star.n_spokes()).map(|k| star.lengths[k].max(star.circumradius(k))).fold(0.0, f64::max) * self.spacing;
-        spokes.iter().all(|spoke| spoke.vertex < self.n_live) && (border.clearance(at) > reach || sight.is_alone(at, reach, border))
+        spokes.iter().all(|spoke| spoke.vertex < self.n_live) && (border.clearance(at) > reach || !border.is_near(at - reach, at + reach))
     }
 
     /// Turns the spokes in the buffer into the star of what is seen of the cell in a polygon.
     pub(super) fn fill_within(&self, border: &Border, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        let StarBuffer { star, spokes, wall_cell, sight, near, moving, .. } = buffer;
         let at = self.mesh.position(v);
-        near.clear();
-        near.extend(spokes.iter().map(|spoke| spoke.vertex).filter(|&vertex| vertex < self.n_live));
-        let seen = |&vertex: &u32| {
-            let place = self.mesh.position(vertex);
-            border.sees(at, place).then_some((vertex, place - at))
-        };
-        let n_seen = near.iter().filter_map(seen).count();
-        wall_cell.clip(at, self.domain.size, near.iter().filter_map(seen));
-        let mut is_less = sight.look(at, wall_cell, border);
-        if n_seen < spokes.len() {
-            // Where neighbours are hidden, others stand in for them: from ring to ring.
-            near.push(v);
-            let mut ring = 0..near.len() - 1;
-            while !ring.is_empty() && near.len() < MOST_SEEN {
-                let reach = 2.0 * sight.reach();
-                let is_near = |vertex: u32| self.mesh.position(vertex).distance_squared(at) < reach * reach;
-                let end = near.len();
-                for k in ring {
-                    if is_near(near[k]) {
-                        self.walk(near[k], territory, moving)?;
-                        for other in moving.iter().map(|spoke| spoke.vertex) {
-                            if other < self.n_live && !near.contains(&other) {
-                                near.push(other);
-                            }
-                        }
-                    }
-                }
-                ring = end..near.len();
-                let mut is_cut = false;
-                for (other, way) in near[ring.clone()].iter().filter(|&&other| is_near(other)).filter_map(seen) {
-                    wall_cell.cut(other, way);
-                    is_cut = true;
-                }
-                if is_cut {
-                    is_less = sight.look(at, wall_cell, border);
-                }
+        let (low, high) = (-at, self.domain.size - at);
+        // Where a border is near, little is seen: of a box around, and of a larger one where that is not all.
+        let mut half = DVec2::splat(NEARBY * self.spacing);
+        let is_less = loop {
+            let (box_low, box_high) = (low.max(-half), high.min(half));
+            let is_less = self.look_within(border, v, [box_low, box_high], territory, buffer)?;
+            let is_whole = box_low == low && box_high == high;
+            if is_whole || buffer.sight.outline.iter().all(|corner| corner.cmpgt(0.999 * -half).all() && corner.cmplt(0.999 * half).all()) {
+                break is_less;
             }
-        }
-        if is_less || n_seen < spokes.len() {
+            half *= 4.0;
+        };
+        let StarBuffer { star, spokes, sight, .. } = buffer;
+        if is_less {
             let scale = 1.0 / self.spacing;
             sight.cell.fill(star, spokes, scale);
             // What is seen may be less than the hull that the star shows.
@@ -77,9 +53,77 @@ impl LiveMesh {
         Ok(())
     }
 
+    /// Finds what `v` sees of its cell in a box, given relative to it; whether that is less than the cell that its neighbours in the mesh cut out.
+    fn look_within(
+        &self,
+        border: &Border,
+        v: u32,
+        [low, high]: [DVec2; 2],
+        territory: Territory,
+        buffer: &mut StarBuffer,
+    ) -> Result<bool, Outside> {
+        let StarBuffer { spokes, wall_cell, sight, near, moving, .. } = buffer;
+        let at = self.mesh.position(v);
+        near.clear();
+        near.extend(spokes.iter().map(|spoke| spoke.vertex).filter(|&vertex| vertex < self.n_live));
+        // The nearest first: what they cut off, others need not.
+        near.sort_by(|&a, &b| self.distance_squared(at, a).total_cmp(&self.distance_squared(at, b)));
+        wall_cell.begin_in(low, high);
+        let mut n_hidden = spokes.len() - near.len();
+        for &other in &*near {
+            let place = self.mesh.position(other);
+            if border.sees(at, place) {
+                wall_cell.cut(other, place - at);
+            } else {
+                n_hidden += 1;
+            }
+        }
+        if n_hidden == 0 {
+            return Ok(sight.look(at, wall_cell, border));
+        }
+        // Where neighbours are hidden, others stand in for them: from ring to ring.
+        near.push(v);
+        let mut ring = 0..near.len() - 1;
+        let mut reach = f64::INFINITY;
+        while !ring.is_empty() && near.len() < MOST_SEEN {
+            let end = near.len();
+            for k in ring {
+                if self.distance_squared(at, near[k]) < reach * reach {
+                    self.walk(near[k], territory, moving)?;
+                    for other in moving.iter().map(|spoke| spoke.vertex) {
+                        if other < self.n_live && !near.contains(&other) {
+                            near.push(other);
+                        }
+                    }
+                }
+            }
+            ring = end..near.len();
+            let mut is_cut = reach.is_infinite();
+            for &other in &near[ring.clone()] {
+                let place = self.mesh.position(other);
+                if wall_cell.is_cut_by(place - at) && border.sees(at, place) {
+                    wall_cell.cut(other, place - at);
+                    is_cut = true;
+                }
+            }
+            if is_cut {
+                sight.look(at, wall_cell, border);
+                reach = 2.0 * sight.reach();
+            }
+        }
+        Ok(true)
+    }
+
+    fn distance_squared(&self, at: DVec2, v: u32) -> f64 {
+        self.mesh.position(v).distance_squared(at)
+    }
+
     /// The squared distance of a place that the vertex `v` sees to the nearest point that sees it, of those that were looked at for the star of `v`.
     pub fn distance_to_seeing(&self, v: u32, near: &[u32], place: DVec2) -> f64 {
-        let others = near.iter().map(|&other| self.position(other)).filter(|&other| self.domain.sees(other, place));
-        others.chain([self.position(v)]).map(|other| other.distance_squared(place)).fold(f64::INFINITY, f64::min)
+        let nearer = |least: f64, &other: &u32| {
+            let squared = self.distance_squared(place, other);
+            if squared < least && self.domain.sees(self.position(other), place) { squared } else { least }
+        };
+        near.iter().fold(self.distance_squared(place, v), nearer)
     }
 }

@@ -20,7 +20,8 @@ pub(super) fn part(points: &mut PointSet, run: &RunContext, report: &mut Report)
     if report.outcome == Outcome::Cancelled || crowded(points).is_empty() {
         return Ok(());
     }
-    let params = PushPullParams { min_distance: Some(PARTED), coverage_radius: None, capacity_tolerance: None, ..PushPullParams::default() };
+    let params =
+        PushPullParams { min_distance: Some(PARTED), coverage_radius: None, capacity_tolerance: None, ..PushPullParams::default() };
     for round in 0..ROUNDS {
         push_and_pull(points, &params, &mut run.silent(), &mut Report::new("procrustes", points.n_points()))?;
         if run.is_cancelled() {

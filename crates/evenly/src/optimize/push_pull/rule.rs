@@ -9,8 +9,15 @@ const OVERSHOOT: f64 = 1e-3;
 const LEAST_DISTANCE: f64 = 1e-3;
 /// How much below the wanted radius a triangle is pulled.
 const UNDERSHOOT: f64 = 1e-4;
+/// A capacity that differs from the mean by less than this is that of the mean.
+pub(super) const LEAST_TOLERANCE: f64 = 1e-8;
 /// Sides shorter than this part of a cell's longest, walls aside, do next to nothing for its area: the neighbours behind them stay.
 const SHORT: f64 = 0.25;
+/// How much of a star's slack is taken off the distance and added to the radius and the tolerance. Cells
+/// at boundaries are of any area, and those next to them must make up for it; of distances least is given.
+const SLACK_OF_DISTANCE: f64 = 0.2;
+const SLACK_OF_RADIUS: f64 = 1.0;
+const SLACK_OF_CAPACITY: f64 = 20.0;
 /// The area of a cell of the hexagonal lattice with spacing 1: the mean capacity.
 const MEAN_CAPACITY: f64 = 0.866_025_403_784_438_6;
 
@@ -35,9 +42,11 @@ impl Rule for PushPull {
 
     fn visit(&self, star: &mut Star) -> bool {
         let &Self { min_distance, coverage_radius, capacity_tolerance, relaxation } = self;
-        let has_pulled = coverage_radius.is_some_and(|radius| cover(star, radius, relaxation));
-        let has_pushed = push_away(star, min_distance.unwrap_or(LEAST_DISTANCE), relaxation);
-        let has_pressed = capacity_tolerance.is_some_and(|tolerance| equalize(star, tolerance, relaxation));
+        let slack = star.slack;
+        let has_pulled = coverage_radius.is_some_and(|radius| cover(star, radius * (1.0 + SLACK_OF_RADIUS * slack), relaxation));
+        let least = (1.0 - SLACK_OF_DISTANCE * slack).max(LEAST_DISTANCE);
+        let has_pushed = push_away(star, least * min_distance.unwrap_or(LEAST_DISTANCE), relaxation);
+        let has_pressed = capacity_tolerance.is_some_and(|tolerance| equalize(star, tolerance + SLACK_OF_CAPACITY * slack, relaxation));
         has_pulled || has_pushed || has_pressed
     }
 }
@@ -80,13 +89,17 @@ fn push_away(star: &mut Star, distance: f64, relaxation: f64) -> bool {
     has_pushed
 }
 
+/// The capacity of the star's cell, relative to the mean.
+pub(super) fn capacity(star: &mut Star) -> f64 {
+    let area = star.measure_cell();
+    star.metric.mass.unwrap_or(area) / MEAN_CAPACITY
+}
+
 /// Capacity (optimization 3): a cell of wrong area presses on its sides in proportion to their length, p = -(A - mean) / sum l^2, so that
 /// each goes by p l and the neighbour behind it by twice that. Walls do not give way, and short sides are left alone.
 fn equalize(star: &mut Star, tolerance: f64, relaxation: f64) -> bool {
-    let area = star.measure_cell();
-    let mass = star.metric.mass.unwrap_or(area);
-    let excess = mass / MEAN_CAPACITY - 1.0;
-    if excess.abs() <= tolerance + star.leeway {
+    let excess = capacity(star) - 1.0;
+    if excess.abs() <= tolerance.max(LEAST_TOLERANCE) + star.leeway {
         return false;
     }
     let Star { lengths, sides, is_mirror, metric, .. } = star;
