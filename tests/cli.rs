@@ -443,3 +443,32 @@ fn meshes_are_made_by_other_methods_too() {
         shell.refused(&format!("mesh area.txt --spacing 0.1 --force -o area.obj {flags}"));
     }
 }
+
+#[test]
+fn factors_in_units_of_their_own_spread_over_all_their_levels() {
+    let shell = Shell::new();
+    let levels = |axis: usize, width: f64| {
+        let text = shell.read("design.txt");
+        let points = text.lines().filter(|line| !line.starts_with('#'));
+        let mut levels: Vec<f64> = points.map(|line| line.split_whitespace().nth(axis).unwrap().parse::<f64>().unwrap() / width).collect();
+        levels.sort_by(f64::total_cmp);
+        levels.dedup_by(|a, b| *a - *b < 1e-4);
+        levels.len()
+    };
+    shell.ok("generate -n 20 --space rect --size 160,4 --metric unit -q -o design.txt");
+    assert!(levels(0, 160.0) >= 10 && levels(1, 4.0) >= 10);
+    // The same as in the unit square, but for units.
+    shell.ok("generate -n 20 --space rect -q -o unit.txt");
+    let measures = |line: &str| {
+        let mut measures = json(&shell.ok(line));
+        measures.as_object_mut().unwrap().retain(|key, _| ["min_distance", "coverage_radius", "beta"].contains(&key.as_str()));
+        measures
+    };
+    let unit = measures("analyze unit.txt --space rect --json");
+    let design = measures("analyze design.txt --space rect --size 160,4 --metric unit --json");
+    for key in ["min_distance", "coverage_radius", "beta"] {
+        let [a, b] = [&unit, &design].map(|measures| measures[key].as_f64().unwrap());
+        assert!((a - b).abs() < 1e-6, "{key}: {a}, {b}");
+    }
+    shell.refused("generate -n 20 --metric metres -o other.txt");
+}

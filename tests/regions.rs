@@ -83,14 +83,12 @@ fn what_cannot_be_is_said() {
     shell.write("l.txt", L);
     shell.write("pins.txt", "1.5 1.5\n");
     shell.write("twice.txt", "0.5 0.5\n0.5 0.5\n");
-    shell.write("crossed.txt", "0 0\n1 1\n1 0\n0 1\n");
     for (arguments, told) in [
         ("generate -n 100 --space l.txt --fixed pins.txt -o a.txt", "outside the domain of the polygon"),
         ("generate -n 100 --space l.txt --fixed twice.txt -o a.txt", "have a place each"),
         ("generate -n 1 --space rect --fixed l.txt --size 2,2 -o a.txt", "6 points stay"),
         ("generate -n 100 --space l.txt --size 2,2 -o a.txt", "has its own"),
         ("generate -n 100 --space nowhere.txt -o a.txt", "no file of that name"),
-        ("generate -n 100 --space crossed.txt -o a.txt", "crosses itself"),
         ("generate -n 100 --space l.txt --method hexagonal -o a.txt", "hexagonal lattice"),
         ("analyze pins.txt --space l.txt", "outside the domain of the polygon"),
         ("generate -n 100 --space - --fixed - -o a.txt", "stdin"),

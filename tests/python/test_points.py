@@ -204,3 +204,15 @@ def test_modules_that_take_more_are_imported_when_asked_for():
     assert evenly.plot.points.__doc__ and evenly.qmc.BlueNoise
     with pytest.raises(AttributeError, match="nonsense"):
         _ = evenly.nonsense
+
+
+def test_designs_in_units_of_their_own(tmp_path):
+    command(tmp_path, "generate", "-n", "30", "--method", "push-pull", "--space", "rect", "--size", "160,4", "--metric", "unit", "-o", "points.npy")
+    ours = evenly.generate(30, method="push-pull", space="rect", size=(160, 4), metric="unit")
+    np.testing.assert_array_equal(np.load(tmp_path / "points.npy"), ours.positions)
+    assert ours.metric == "unit" and len(np.unique(ours.positions[:, 1].round(3))) > 20
+    again = evenly.optimize(ours, method="lloyd", iterations=3)
+    assert again.metric == "unit" and again.positions[:, 0].max() > 100
+    assert evenly.measure(ours).min_distance == pytest.approx(evenly.measure(ours.positions / [160, 4], space="rect").min_distance)
+    with pytest.raises(ValueError, match="metric is 'miles'"):
+        evenly.generate(30, metric="miles")

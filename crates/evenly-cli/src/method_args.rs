@@ -18,7 +18,7 @@ pub struct OptimizerArgs {
     /// Take points as they are: not evened out first
     #[arg(long)]
     pub no_warp: bool,
-    /// Stop after so many iterations or passes in any case [default: by the method]
+    /// Stop after so many iterations or passes [default: by the method]
     ///
     /// By default 100 of lloyd and cvt, 200 of distmesh, 500 of procrustes and farthest-point, 10000 of opt-beta, which ends where 1000 sweeps bring nothing, and 2000 of the others, more for more than 1000 points.
     #[arg(short, long, value_name = "I", allow_negative_numbers = true)]
@@ -73,7 +73,7 @@ pub struct OptimizerArgs {
 #[derive(Args)]
 #[command(next_help_heading = "Starts")]
 pub struct StartArgs {
-    /// No two points nearer than this, in the domain's units, where a density is largest; how many there will be is chance
+    /// No two points nearer than this, in input units, where a density is largest; their number is chance
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
     /// No place farther from all points than this, in the domain's units: more than the spacing makes points fewer, and more random

@@ -26,12 +26,12 @@ pub struct SpaceArgs {
 
 #[derive(Args)]
 pub struct MetricArg {
-    /// In which units distances are measured
+    /// Units of distances: input, or unit (both axes 0 to 1)
     ///
     /// With unit, the domain is scaled to the unit square, each axis by itself, and points come back in
     /// their own units: for axes of different kinds, as the factors of an experiment. Measures and
     /// figures are those of the unit square.
-    #[arg(long, value_enum, default_value = "input")]
+    #[arg(long, value_enum, default_value = "input", hide_possible_values = true)]
     metric: Metric,
 }
 

@@ -7,7 +7,7 @@ mod wkt;
 
 use std::path::Path;
 
-use evenly::Polygon;
+use evenly::{Polygon, Shape};
 
 use crate::Error;
 use crate::file::read_bytes;
@@ -20,40 +20,49 @@ type Points = Vec<[f64; 2]>;
 struct Shapes {
     /// Parts of which the first ring is the outer one.
     parts: Vec<Vec<Points>>,
-    /// Rings that are not said to be outer ones or holes.
-    rings: Vec<Points>,
+    /// What is filled, where parts are not told apart.
+    filled: Vec<Shape>,
     lines: Vec<Points>,
 }
 
-/// Reads a polygon. What is in the file tells the format: GeoJSON (all its polygons together), WKT, SVG (all its closed paths and shapes; y upwards from the view box' lower side), or text: `x y` a
-/// line, a blank line between rings. Curves are flattened so that no place of them is farther off than `tolerance`, in the file's units; `None` for a thousandth of the drawing's size.
+/// Reads a polygon. What is in the file tells the format: GeoJSON or WKT (all polygons together),
+/// SVG (what is filled, or where nothing is, closed outlines; in the view box' units, y upwards from
+/// its lower side), or text: `x y` a line, a blank line between rings. Curves are flattened so that no
+/// place of them is farther off than `tolerance`, in the file's units; `None` for a thousandth of the
+/// drawing's size.
 ///
 /// # Errors
 /// [`Error::Content`] with the file's name, and what is wrong with it or with the polygon.
 pub fn read_polygon(path: &Path, tolerance: Option<f64>) -> Result<Polygon, Error> {
     let (name, shapes) = read(path, tolerance)?;
     let polygon = match shapes {
-        Shapes { parts, rings, .. } if parts.is_empty() && rings.is_empty() => {
-            return Err(Error::content(name, "there is no polygon in it"));
-        }
-        Shapes { parts, rings, .. } if rings.is_empty() => Polygon::new(parts),
-        Shapes { rings, .. } => Polygon::from_rings(rings),
+        Shapes { parts, .. } if !parts.is_empty() => Polygon::new(parts),
+        Shapes { filled, .. } if filled.iter().any(|shape| !shape.rings.is_empty()) => Polygon::of_shapes(&filled),
+        _ => return Err(Error::content(name, "there is no polygon in it")),
     };
     polygon.map_err(|e| Error::content(name, e.to_string()))
 }
 
-/// Reads lines, in the same formats: of text, each block between blank lines is one.
+/// Reads lines, in the same formats: polygons give their rings, and text a line for each block
+/// between blank lines.
 ///
 /// # Errors
 /// As [`read_polygon`].
 pub fn read_lines(path: &Path) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    let (name, Shapes { lines, rings, .. }) = read(path, None)?;
-    // Blocks of text may be either.
-    let lines: Vec<Points> = lines.into_iter().chain(rings).filter(|line| line.len() > 1).collect();
+    let (name, Shapes { parts, lines, .. }) = read(path, None)?;
+    let lines: Vec<Points> = parts.into_iter().flatten().map(closed).chain(lines).filter(|line| line.len() > 1).collect();
     if lines.is_empty() {
         return Err(Error::content(name, "there is no line in it"));
     }
     Ok(lines)
+}
+
+/// A ring as a line that ends where it begins.
+fn closed(mut ring: Points) -> Points {
+    if ring.first() != ring.last() {
+        ring.extend(ring.first().copied());
+    }
+    ring
 }
 
 fn read(path: &Path, tolerance: Option<f64>) -> Result<(String, Shapes), Error> {
@@ -85,6 +94,10 @@ mod tests {
         parse("p", text.as_bytes(), Some(1e-3)).unwrap()
     }
 
+    fn area(filled: &[Shape]) -> f64 {
+        Polygon::of_shapes(filled).unwrap().area()
+    }
+
     fn message(text: &str) -> String {
         parse("p", text.as_bytes(), None).unwrap_err().to_string()
     }
@@ -100,7 +113,7 @@ mod tests {
         for text in [geometry, &feature, &collection, "POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))", "MULTIPOLYGON(((0 0,2 0,2 2,0 2,0 0)))"] {
             assert_eq!(shapes(text).parts, vec![vec![closed.clone()]], "{text}");
         }
-        assert_eq!(shapes("0 0\n2,0 # a comment\n2\t2\n0 2\n").rings, vec![square.clone()]);
+        assert_eq!(shapes("0 0\n2,0 # a comment\n2\t2\n0 2\n").filled[0].rings, vec![square.clone()]);
         let svg = |body: &str| format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 2 2'>{body}</svg>");
         for body in [
             "<path d='M0 2 H2 V0 H0 Z'/>",
@@ -108,23 +121,77 @@ mod tests {
             "<g transform='translate(1 1)'><rect x='-1' y='-1' width='2' height='2'/></g>",
             "<g transform='scale(2)'><path transform='scale(0.5)' d='m0 2 2 0 0-2-2 0z'/></g>",
         ] {
-            let rings = shapes(&svg(body)).rings;
-            assert_eq!((rings.len(), Polygon::from_rings(rings).unwrap().area()), (1, 4.0), "{body}");
+            let filled = shapes(&svg(body)).filled;
+            assert_eq!((filled.len(), area(&filled)), (1, 4.0), "{body}");
         }
     }
 
     #[test]
     fn curves_are_as_near_as_the_tolerance() {
-        let circle = shapes("<svg xmlns='http://www.w3.org/2000/svg'><circle cx='5' cy='5' r='3'/></svg>").rings;
-        assert!(circle[0].iter().all(|[x, y]| ((x - 5.0).hypot(y + 5.0) - 3.0).abs() < 2e-3), "{circle:?}");
-        let area = Polygon::from_rings(circle).unwrap().area();
-        assert!((area - 9.0 * std::f64::consts::PI).abs() < 0.05, "{area}");
+        let circle = shapes("<svg xmlns='http://www.w3.org/2000/svg'><circle cx='5' cy='5' r='3'/></svg>").filled;
+        let ring = &circle[0].rings[0];
+        assert!(ring.iter().all(|[x, y]| ((x - 5.0).hypot(y - 3.0) - 3.0).abs() < 2e-3), "{ring:?}");
+        assert!((area(&circle) - 9.0 * std::f64::consts::PI).abs() < 0.05);
+    }
+
+    #[test]
+    fn a_drawing_is_read_as_it_is_shown() {
+        let near = |body: &str, expected: f64| {
+            let text = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>{body}</svg>");
+            let found = area(&shapes(&text).filled);
+            assert!((found - expected).abs() < 1e-3 * expected, "{found}, expected {expected}: {body}");
+        };
+        let square = "<rect x='10' y='10' width='40' height='40'/>";
+        // What is hidden, or has no colour, is not there.
+        for hidden in [
+            "style='display:none'",
+            "display='none'",
+            "visibility='hidden'",
+            "class='no'",
+            "opacity='0'",
+            "fill='none'",
+            "fill-opacity='0'",
+        ] {
+            near(&format!("<style>.no {{ display: none }}</style><g {hidden}><rect width='90' height='90'/></g>{square}"), 1600.0);
+        }
+        near(&format!("<defs>{square}</defs><rect width='7' height='1'/>"), 7.0);
+        near("<defs><rect id='a' width='3' height='2'/></defs><use href='#a' x='5'/><use href='#a' y='9'/>", 12.0);
+        // Filled, and drawn once more as an outline.
+        near(
+            &format!("{square}<rect x='10' y='10' width='40' height='40' fill='none' stroke='red'/><rect x='80' width='9' height='9'/>"),
+            1681.0,
+        );
+        near("<rect width='10' height='10' fill='none' stroke='red'/><circle cx='80' cy='80' r='0.5' stroke='red' fill='none'/>", 100.785);
+        // Both rules, and how an outline without a colour is read.
+        let star = "M50 10 L73.51 82.36 L11.96 37.64 L88.04 37.64 L26.49 82.36 Z";
+        near(&format!("<path d='{star}'/>"), 1796.0);
+        near(&format!("<path fill-rule='evenodd' d='{star}'/>"), 1241.0);
+        near(&format!("<path style='fill-rule:evenodd' d='{star}'/>"), 1241.0);
+        // Clips, drawings in drawings, transforms in styles, corners that are ellipses.
+        near(&format!("<clipPath id='c'><rect x='20' width='10' height='100'/></clipPath><g clip-path='url(#c)'>{square}</g>"), 400.0);
+        near("<svg x='10' y='10' width='20' height='20' viewBox='0 0 10 10'><rect width='15' height='5'/></svg>", 200.0);
+        near("<g style='transform: scale(2)'><rect width='5' height='5'/></g>", 100.0);
+        near("<rect width='40' height='20' rx='10' ry='5'/>", 800.0 - (4.0 - std::f64::consts::PI) * 50.0);
+        near("<rect width='50%' height='1mm'/>", 50.0 * 96.0 / 25.4);
+    }
+
+    #[test]
+    fn a_drawing_keeps_its_own_units() {
+        let low = |head: &str, body: &str| {
+            let text = format!("<svg xmlns='http://www.w3.org/2000/svg' {head}>{body}</svg>");
+            *Polygon::of_shapes(&shapes(&text).filled).unwrap().frame()
+        };
+        let square = "<rect x='10' y='10' width='80' height='10'/>";
+        for head in ["width='100' height='100'", "viewBox='0 0 100 100'", "width='3in' height='50mm' viewBox='0 0 100 100'"] {
+            assert_eq!(low(head, square), evenly::Rectangle::new([10.0, 80.0], [80.0, 10.0]).unwrap(), "{head}");
+        }
+        assert_eq!(low("viewBox='-50 -50 100 100'", square), evenly::Rectangle::new([10.0, 30.0], [80.0, 10.0]).unwrap());
     }
 
     #[test]
     fn rings_and_lines_stand_apart() {
         let two = shapes("0 0\n9 0\n9 9\n\n# a hole\n1 1\n2 1\n2 2\n\n\n");
-        assert_eq!(two.rings.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
+        assert_eq!(two.lines.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
         assert_eq!(shapes("LINESTRING (0 0, 1 1, 2 0)").lines[0].len(), 3);
         assert_eq!(shapes(r#"{"type":"MultiLineString","coordinates":[[[0,0],[1,1]],[[2,2],[3,3]]]}"#).lines.len(), 2);
     }
@@ -140,8 +207,6 @@ mod tests {
         assert!(message("POLYGON((0 0,1 0,1 1,0 0)) POLYGON((0 0,1 0,1 1,0 0))").contains("GEOMETRYCOLLECTION"));
         assert!(message(&"GEOMETRYCOLLECTION(".repeat(100_000)).contains("deep"));
         assert!(message(&format!("<svg>{}</svg>", "<g>".repeat(3000) + &"</g>".repeat(3000))).contains("deep"));
-        assert!(message("<svg><rect width='100%' height='1'/></svg>").contains("100%"));
-        assert!(message("<svg><use href='#a'/></svg>").contains("<use>"));
         assert!(parse("p", &[0xff, 0xfe, 0x00], None).unwrap_err().to_string().contains("not text"));
     }
 
@@ -155,9 +220,9 @@ mod tests {
             end in prop::sample::select(vec!["", "]]}", "))", "'/></svg>", "'/></g></svg>"]),
         ) {
             let text = format!("{start}{rest}{end}");
-            if let Ok(Shapes { parts, rings, .. }) = parse("p", text.as_bytes(), Some(0.01)) {
+            if let Ok(Shapes { parts, filled, .. }) = parse("p", text.as_bytes(), Some(0.01)) {
                 let _ = Polygon::new(parts);
-                let _ = Polygon::from_rings(rings);
+                let _ = Polygon::of_shapes(&filled);
             }
         }
     }

@@ -53,7 +53,7 @@ pub use points::{
     CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,
     poisson_disk_around, poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, warp, warp_isotropic, white, white_by_density,
 };
-pub use polygon::Polygon;
+pub use polygon::{FillRule, Polygon, Shape};
 pub use remesh::{RemeshMethod, RemeshParams, Remeshed, SurfacePoint, SurfaceSampling, remesh, sample_surface};
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Region, Space, Torus};

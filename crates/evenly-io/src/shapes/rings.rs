@@ -1,5 +1,7 @@
 //! Rings as text: `x y` a line, a blank line between rings; `#` comments.
 
+use evenly::Shape;
+
 use super::{Points, Shapes};
 use crate::{Error, text};
 
@@ -15,5 +17,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Shapes, Error> {
         }
     }
     rings.retain(|ring| !ring.is_empty());
-    Ok(Shapes { rings, ..Shapes::default() })
+    // Blocks of text may be either.
+    let filled = vec![Shape { rings: rings.clone(), ..Shape::default() }];
+    Ok(Shapes { filled, lines: rings, ..Shapes::default() })
 }

@@ -60,7 +60,7 @@ class Polygon:
     Raises
     ------
     ValueError
-        Where it is in doubt what is inside: the message has the place.
+        Where nothing is enclosed, or a hole lies outside of its part: the message has the place.
 
     Examples
     --------

@@ -131,7 +131,7 @@ impl Outline {
         };
         planar(Graph { points: &self.points, border: &of_kind(false), lines: &of_kind(true) }).map_err(|Crossing(crossed)| {
             let all: Vec<[u32; 2]> = self.segments.iter().map(|segment| segment.ends).collect();
-            let met = meetings(&self.points, &all, &crossed).first().map(|meeting| meeting.at);
+            let met = meetings(&self.points, &all, &crossed).first().copied();
             let at = domain.restore(met.unwrap_or(self.points[crossed[0][0] as usize]));
             Error::InvalidPolygon {
                 problem: "has a line that crosses another, or the border; or its border meets itself in rounding".into(),

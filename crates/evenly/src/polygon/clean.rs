@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::counted;
 use crate::space::Domain;
 
 /// What is nearer to a straight line than this, in normalised units, lies on it: rounding has moved points on slanted lines off them.
@@ -16,35 +17,39 @@ pub(super) struct Corner {
 
 /// How much was left out.
 #[derive(Default)]
-struct LeftOut {
+pub(super) struct LeftOut {
     doubled: usize,
     spikes: usize,
     straight: usize,
     rings: usize,
 }
 
-/// The clean rings that have an area, each with its number.
-pub(super) fn clean(rings: &[Vec<[f64; 2]>], domain: &Domain, repairs: &mut Vec<String>) -> Vec<(usize, Vec<Corner>)> {
-    let mut left_out = LeftOut::default();
+impl LeftOut {
+    /// The same in words.
+    pub fn told(&self) -> impl Iterator<Item = String> {
+        let counts = [
+            (self.doubled, "point is there twice", "points are there twice"),
+            (self.spikes, "corner is the tip of a spike without width", "corners are tips of spikes without width"),
+            (self.straight, "point lies on a straight line", "points lie on straight lines"),
+            (self.rings, "ring has no area", "rings have no area"),
+        ];
+        counts.into_iter().filter(|&(n, ..)| n > 0).map(|(n, one, many)| format!("{}: left out", counted(n, one, many)))
+    }
+}
+
+/// The clean rings that have an area.
+pub(super) fn clean(rings: &[Vec<[f64; 2]>], domain: &Domain, left_out: &mut LeftOut) -> Vec<Vec<Corner>> {
     let mut kept = Vec::new();
-    for (number, ring) in rings.iter().enumerate() {
+    for ring in rings {
         // A zero has no sign here, so that equal places have equal bits.
         let corners = ring.iter().map(|&input| Corner { at: domain.normalize(input) + 0.0, input });
-        let corners = clean_ring(corners.collect(), &mut left_out);
+        let corners = clean_ring(corners.collect(), left_out);
         if corners.len() < 3 {
             left_out.rings += 1;
         } else {
-            kept.push((number, corners));
+            kept.push(corners);
         }
     }
-    let LeftOut { doubled, spikes, straight, rings } = left_out;
-    let counts = [
-        (doubled, "points that are there twice"),
-        (spikes, "spikes"),
-        (straight, "points on straight lines"),
-        (rings, "rings without an area"),
-    ];
-    repairs.extend(counts.into_iter().filter(|&(n, _)| n > 0).map(|(n, what)| format!("{n} {what} were left out")));
     kept
 }
 
@@ -143,11 +148,11 @@ mod tests {
             [0.0, 0.0],
         ];
         let line = vec![[1.0, 1.0], [2.0, 2.0], [3.0, 3.0]];
-        let mut repairs = Vec::new();
-        let kept = clean(&[ring, line], &space.domain(), &mut repairs);
+        let mut left_out = LeftOut::default();
+        let kept = clean(&[ring, line], &space.domain(), &mut left_out);
         assert_eq!(kept.len(), 1);
-        let corners: Vec<[f64; 2]> = kept[0].1.iter().map(|corner| corner.input).collect();
+        let corners: Vec<[f64; 2]> = kept[0].iter().map(|corner| corner.input).collect();
         assert_eq!(corners, [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]);
-        assert_eq!(repairs.len(), 4, "{repairs:?}");
+        assert_eq!(left_out.told().count(), 4);
     }
 }

@@ -1,15 +1,18 @@
 //! [`Polygon`]: what rings of straight segments enclose, with holes, in one part or several.
 
 mod clean;
+mod corners;
 mod crossings;
+mod union;
 
 use std::collections::{HashMap, HashSet};
 
 use glam::DVec2;
 
-use self::clean::{Corner, clean};
+use self::clean::{LeftOut, clean};
+use self::corners::Corners;
 pub(crate) use self::crossings::meetings;
-use self::crossings::{Meeting, cut, is_minor, twice_area};
+use self::union::{Figure, Union, union};
 use crate::error::Error;
 use crate::space::{Domain, Rectangle, Region, Space};
 use crate::triangulation::{Crossing, Graph, HalfEdges, Planar, next, planar};
@@ -30,31 +33,41 @@ pub struct Polygon {
     border: Vec<[u32; 2]>,
 }
 
-/// Clean rings stay as they are from the second time on, and where parts touch from the third.
-const MOST_CLEANINGS: usize = 4;
-/// Rings are cut anew so often where cuts, rounded, lead to new crossings.
-const MOST_CUTS: usize = 5;
-/// With more crossings than this nobody knows what was meant.
-const MOST_CROSSINGS: usize = 1000;
-
-/// What a ring is said to be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Role {
-    Outer,
-    Hole,
-    /// An odd number of rings enclose the inside.
-    Any,
+/// Which places rings enclose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FillRule {
+    /// Those that an odd number of rings go around, whichever way they run.
+    #[default]
+    EvenOdd,
+    /// Those around which rings wind, one way more often than the other.
+    NonZero,
 }
 
+/// Rings, and which places they enclose.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Shape {
+    /// In input units. Each may be closed by its first point once more.
+    pub rings: Vec<Vec<[f64; 2]>>,
+    /// What is inside of them.
+    pub rule: FillRule,
+    /// Only what each of these encloses, too, belongs to the shape.
+    pub clips: Vec<Vec<Shape>>,
+}
+
+/// Clean rings stay as they are from the second time on, and where parts touch from the third.
+const MOST_CLEANINGS: usize = 4;
+/// Shapes whose common area is less than this part of all have none.
+const LEAST_SHARED: f64 = 1e-9;
+
 impl Polygon {
-    /// What the parts enclose: of each the first ring is the outer one, the others are its holes. Rings may be closed by their first point once more.
+    /// What the parts enclose together: of each the first ring is the outer one, and the others are its holes, or islands in them. Rings may be closed by their first point once more.
     ///
-    /// What can be repaired without doubt is, and told by [`Self::repairs`]: doubled and collinear points, spikes, rings without an area, rings that run the wrong way,
-    /// segments that two parts share, crossings that change the area by less than a ten-thousandth of it.
+    /// What is repaired is told by [`Self::repairs`]: doubled and collinear points, spikes, rings without an area, rings that are there twice or run the wrong way,
+    /// parts that overlap or share segments, rings that cross themselves or each other. There, an odd number of a part's rings enclose its inside.
     ///
     /// # Errors
-    /// [`Error::InvalidPolygon`] where segments cross by more, a hole is not inside or a part inside of another, nothing is enclosed, or a coordinate is not finite;
-    /// [`Error::InvalidSpace`] where f64 cannot tell its width from nothing.
+    /// [`Error::InvalidPolygon`] where a hole lies outside of its part, nothing is enclosed, or a coordinate is not finite; [`Error::InvalidSpace`] where f64 cannot tell
+    /// its width from nothing.
     ///
     /// # Example
     /// ```
@@ -64,123 +77,101 @@ impl Polygon {
     /// # Ok::<(), evenly::Error>(())
     /// ```
     pub fn new(parts: Vec<Vec<Vec<[f64; 2]>>>) -> Result<Self, Error> {
-        let roles = parts.iter().flat_map(|part| (0..part.len()).map(|k| if k == 0 { Role::Outer } else { Role::Hole })).collect();
-        Self::cleaned(parts.into_iter().flatten().collect(), roles)
+        let shapes: Vec<Shape> = parts.into_iter().map(|rings| Shape { rings, ..Shape::default() }).collect();
+        let mut polygon = Self::of_shapes(&shapes)?;
+        check_holes(&shapes)?;
+        let is_wrong = |(k, ring): (usize, &Vec<[f64; 2]>)| (signed_area(ring) > 0.0) != (k == 0);
+        let n_turned = shapes.iter().flat_map(|shape| shape.rings.iter().enumerate()).filter(|&ring| is_wrong(ring)).count();
+        if n_turned > 0 {
+            polygon.repairs.push(format!("{} the wrong way: turned", counted(n_turned, "ring runs", "rings run")));
+        }
+        Ok(polygon)
     }
 
     /// What an odd number of the rings enclose, whichever way they run.
     ///
     /// # Errors
-    /// As [`Self::new`], but for what is inside of what.
+    /// As [`Self::of_shapes`].
     pub fn from_rings(rings: Vec<Vec<[f64; 2]>>) -> Result<Self, Error> {
-        let roles = vec![Role::Any; rings.len()];
-        Self::cleaned(rings, roles)
+        Self::of_shapes(&[Shape { rings, ..Shape::default() }])
     }
 
-    /// Cleans rings until they stay as they are: so a polygon is the same, to the bit, as that of its own rings.
-    fn cleaned(given: Vec<Vec<[f64; 2]>>, roles: Vec<Role>) -> Result<Self, Error> {
-        let mut polygon = Self::of(&given, &roles)?;
-        let mut before = given;
+    /// What the shapes enclose together.
+    ///
+    /// # Errors
+    /// As [`Self::new`], but for holes.
+    pub fn of_shapes(shapes: &[Shape]) -> Result<Self, Error> {
+        let mut polygon = Self::of(shapes)?;
+        // So a polygon is the same, to the bit, as that of its own rings.
         for _ in 0..MOST_CLEANINGS {
-            if polygon.rings == before {
+            let again = Self::of(&[Shape { rings: polygon.rings.clone(), ..Shape::default() }])?;
+            let is_clean = again.rings == polygon.rings;
+            polygon = Self { repairs: polygon.repairs, ..again };
+            if is_clean {
                 break;
             }
-            before = polygon.rings;
-            polygon = Self { repairs: polygon.repairs, ..Self::of(&before, &vec![Role::Any; before.len()])? };
         }
         Ok(polygon)
     }
 
-    fn of(given: &[Vec<[f64; 2]>], roles: &[Role]) -> Result<Self, Error> {
-        let frame = frame(given)?;
+    fn of(shapes: &[Shape]) -> Result<Self, Error> {
+        let given = all_rings(shapes);
+        let frame = frame(&given)?;
         let domain = Space::from(frame).domain();
         let mut repairs = Vec::new();
+        let nothing = |at: [f64; 2]| Err(Error::InvalidPolygon { problem: "encloses nothing".into(), at });
 
         // Clean rings, and their corners by number.
-        let clean = clean(given, &domain, &mut repairs);
-        let (mut corners, mut inputs, mut numbers) = (Vec::new(), Vec::new(), HashMap::new());
-        let mut rings: Vec<(Role, Vec<u32>)> = clean
-            .into_iter()
-            .map(|(ring, kept)| {
-                let number = |Corner { at, input }: Corner| {
-                    *numbers.entry([at.x.to_bits(), at.y.to_bits()]).or_insert_with(|| {
-                        corners.push(at);
-                        inputs.push(input);
-                        corners.len() as u32 - 1
-                    })
-                };
-                (roles[ring], kept.into_iter().map(number).collect())
-            })
-            .collect();
-        let Some(&first) = inputs.first() else {
-            let at = given.iter().flatten().next().copied().unwrap_or_default();
-            return Err(Error::InvalidPolygon { problem: "encloses nothing".into(), at });
-        };
+        let mut corners = Corners::default();
+        let mut left_out = LeftOut::default();
+        let figures: Vec<Figure> = shapes.iter().map(|shape| cleaned(shape, &domain, &mut left_out)).collect();
+        let mut sides = Vec::new();
+        for ring in figures.iter().flat_map(|figure| &figure.rings) {
+            let numbers: Vec<u32> = ring.iter().map(|corner| corners.number(corner.at, || corner.input)).collect();
+            sides.extend(segments(&numbers));
+        }
+        repairs.extend(left_out.told());
+        let n_given = corners.places.len();
 
         // What they enclose.
-        let mut planar = Self::enclosed(&corners, &rings);
-        let mut crossing = None;
-        for _ in 0..MOST_CUTS {
-            let Err(Crossing(crossed)) = &planar else { break };
-            let sides: Vec<[u32; 2]> = rings.iter().flat_map(|(_, ring)| segments(ring)).collect();
-            let found = meetings(&corners, &sides, crossed);
-            let error = || crosses(&domain, &corners, found.first(), crossed[0]);
-            let (_, n_cuts) = crossing.get_or_insert_with(|| (error(), 0));
-            *n_cuts += found.len();
-            if found.is_empty() || found.len() > MOST_CROSSINGS {
-                break;
-            }
-            cut(rings.iter_mut().map(|(_, ring)| ring), &mut corners, &found);
-            planar = Self::enclosed(&corners, &rings);
-        }
-        inputs.extend(corners[inputs.len()..].iter().map(|&at| domain.restore(at)));
-        let planar = match (planar, &crossing) {
-            (Ok(planar), _) => planar,
-            (Err(_), Some((error, _))) => return Err(error.clone()),
-            (Err(Crossing(crossed)), None) => return Err(crosses(&domain, &corners, None, crossed[0])),
-        };
-        let twice_inside: f64 = planar.half_edges.triangles().map(|[a, b, c]| twice_area(&[a, b, c], &planar.positions)).sum();
+        let Union { rings, n_doubled, shared_area } = union(&figures);
+        let rings: Vec<Vec<u32>> =
+            rings.iter().map(|ring| ring.iter().map(|&at| corners.number(at, || domain.restore(at))).collect()).collect();
+        let border: Vec<[u32; 2]> = rings.iter().flat_map(|ring| segments(ring)).collect();
+        let planar = planar(Graph { points: &corners.places, border: &border, lines: &[] })
+            .map_err(|Crossing(crossed)| crosses(&corners.inputs, crossed[0]))?;
         if planar.half_edges.n_triangles() == 0 {
-            return Err(Error::InvalidPolygon { problem: "encloses nothing".into(), at: first });
-        }
-        let loops = loops(&planar);
-        let border: Vec<[u32; 2]> = loops.iter().flat_map(|ring| segments(ring)).collect();
-        if let Some((error, n_cuts)) = crossing {
-            let inside: HashSet<[u32; 2]> = border.iter().copied().collect();
-            if !is_minor(rings.iter().map(|(_, ring)| &ring[..]), &corners, &inside, twice_inside) {
-                return Err(error);
-            }
-            repairs.push(format!(
-                "the border crosses itself by a little in {n_cuts} places, the first {}; it was cut there",
-                place_of(&error)
-            ));
-        }
-        check_roles(&rings, &corners, &inputs, &border, &mut repairs)?;
-        let mut seen = HashSet::new();
-        let n_shared = rings.iter().flat_map(|(_, ring)| segments(ring)).filter(|&[a, b]| !seen.insert([a.min(b), a.max(b)])).count();
-        if n_shared > 0 {
-            repairs.push(format!("{n_shared} segments that two rings share were left out"));
+            return nothing(given.iter().flat_map(|ring| ring.first()).next().copied().unwrap_or_default());
         }
         let unit = domain.restore_length(1.0);
-        let rings = loops.iter().map(|ring| ring.iter().map(|&v| inputs[v as usize]).collect()).collect();
+        let twice_inside: f64 =
+            planar.half_edges.triangles().map(|corners| twice_area(&corners.map(|v| planar.positions[v as usize]))).sum();
+
+        // What was wrong with them.
+        if n_doubled > 0 {
+            repairs.push(format!("{} there twice: left out", counted(n_doubled, "ring is", "rings are")));
+        }
+        if let Some([x, y]) = corners.inputs.get(n_given) {
+            let n = corners.places.len() - n_given;
+            repairs.push(format!("the boundary crosses itself in {}, the first at ({x}, {y}): cut there", counted(n, "place", "places")));
+        }
+        if shared_area > LEAST_SHARED * twice_inside {
+            repairs.push(format!("shapes overlap by an area of {}: united", rounded(shared_area * unit * unit)));
+        }
+        let mut seen = HashSet::new();
+        let n_shared = sides.iter().filter(|[a, b]| !seen.insert([a.min(b), a.max(b)])).count();
+        if n_shared > 0 && n_doubled == 0 && shared_area <= LEAST_SHARED * twice_inside {
+            repairs.push(format!("{} by two rings: left out", counted(n_shared, "segment is shared", "segments are shared")));
+        }
 
         // Only what is on the border is a corner.
-        let mut number = vec![None; corners.len()];
-        let (mut kept, mut given) = (Vec::new(), Vec::new());
-        for &v in border.iter().flatten() {
-            number[v as usize].get_or_insert_with(|| {
-                kept.push(corners[v as usize]);
-                given.push(inputs[v as usize]);
-                kept.len() as u32 - 1
-            });
-        }
-        let border = border.into_iter().map(|segment| segment.map(|v| number[v as usize].unwrap_or_default())).collect();
-        Ok(Self { rings, frame, area: 0.5 * twice_inside * unit * unit, repairs, corners: kept, given, border })
-    }
-
-    fn enclosed(corners: &[DVec2], rings: &[(Role, Vec<u32>)]) -> Result<Planar, Crossing> {
-        let sides: Vec<[u32; 2]> = rings.iter().flat_map(|(_, ring)| segments(ring)).collect();
-        planar(Graph { points: corners, border: &sides, lines: &[] })
+        let loops = loops(&planar);
+        let rings = loops.iter().map(|ring| ring.iter().map(|&v| corners.inputs[v as usize]).collect()).collect();
+        let border: Vec<[u32; 2]> = loops.iter().flat_map(|ring| segments(ring)).collect();
+        let mut kept = Corners::default();
+        let border =
+            border.into_iter().map(|ends| ends.map(|v| kept.number(corners.places[v as usize], || corners.inputs[v as usize]))).collect();
+        Ok(Self { rings, frame, area: 0.5 * twice_inside * unit * unit, repairs, corners: kept.places, given: kept.inputs, border })
     }
 
     /// The rings, in input units, without a closing point: the inside is on their left, so outer ones run counter-clockwise, and holes clockwise.
@@ -245,10 +236,21 @@ impl From<&Polygon> for Space {
     }
 }
 
+/// The rings of shapes, and of what clips them.
+fn all_rings(shapes: &[Shape]) -> Vec<&Vec<[f64; 2]>> {
+    shapes.iter().flat_map(|shape| shape.rings.iter().chain(shape.clips.iter().flat_map(|clip| all_rings(clip)))).collect()
+}
+
+/// The shape with clean rings, normalised.
+fn cleaned(shape: &Shape, domain: &Domain, left_out: &mut LeftOut) -> Figure {
+    let clip = |shapes: &Vec<Shape>| shapes.iter().map(|shape| cleaned(shape, domain, &mut LeftOut::default())).collect();
+    Figure { rings: clean(&shape.rings, domain, left_out), rule: shape.rule, clips: shape.clips.iter().map(clip).collect() }
+}
+
 /// The rectangle around all points.
-fn frame(rings: &[Vec<[f64; 2]>]) -> Result<Rectangle, Error> {
+fn frame(rings: &[&Vec<[f64; 2]>]) -> Result<Rectangle, Error> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for &at in rings.iter().flatten() {
+    for &at in rings.iter().copied().flatten() {
         if !at.iter().all(|x| x.is_finite()) {
             return Err(Error::InvalidPolygon { problem: "has a coordinate that is not finite".into(), at });
         }
@@ -298,51 +300,57 @@ fn following(half_edges: &HalfEdges, h: u32) -> u32 {
     at
 }
 
-/// That segments cross: where, if that is known, or one of them.
-fn crosses(domain: &Domain, corners: &[DVec2], meeting: Option<&Meeting>, segment: [u32; 2]) -> Error {
-    let show = |[a, b]: [u32; 2]| {
-        let [[ax, ay], [bx, by]] = [a, b].map(|v| domain.restore(corners[v as usize]));
-        format!("({ax}, {ay}) to ({bx}, {by})")
-    };
-    let [a, b] = segment.map(|v| corners[v as usize]);
-    let (problem, at) = match meeting {
-        Some(&Meeting { at, segments: [one, other] }) => (format!("crosses itself, {} and {}", show(one), show(other)), at),
-        None => (format!("crosses itself, {} and another segment", show(segment)), 0.5 * (a + b)),
-    };
-    Error::InvalidPolygon { problem, at: domain.restore(at) }
+/// That segments cross, where the grid is too coarse to part them.
+fn crosses(inputs: &[[f64; 2]], segment: [u32; 2]) -> Error {
+    let [a, b] = segment.map(|v| inputs[v as usize]);
+    let problem = format!("crosses itself, ({}, {}) to ({}, {}) and another segment", a[0], a[1], b[0], b[1]);
+    Error::InvalidPolygon { problem, at: [0, 1].map(|axis| 0.5 * (a[axis] + b[axis])) }
 }
 
-fn place_of(error: &Error) -> String {
-    if let Error::InvalidPolygon { at: [x, y], .. } = error { format!("at ({x}, {y})") } else { String::new() }
+/// A number with the right one of two words.
+fn counted(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
 }
 
-/// Checks that outer rings have the inside within, and holes without.
-fn check_roles(
-    rings: &[(Role, Vec<u32>)],
-    corners: &[DVec2],
-    inputs: &[[f64; 2]],
-    border: &[[u32; 2]],
-    repairs: &mut Vec<String>,
-) -> Result<(), Error> {
-    let border: HashSet<[u32; 2]> = border.iter().copied().collect();
-    let mut n_turned = 0;
-    for (role, ring) in rings.iter().filter(|(role, _)| *role != Role::Any) {
-        let is_counter_clockwise = twice_area(ring, corners) > 0.0;
-        let is_outer = *role == Role::Outer;
-        // A segment of the border runs with the ring, or against it.
-        let side = segments(ring).find_map(|[a, b]| {
-            let is_left = border.contains(&[a, b]);
-            (is_left || border.contains(&[b, a])).then_some(is_left)
-        });
-        if side.is_some_and(|is_left| (is_left == is_counter_clockwise) != is_outer) {
-            let what =
-                if is_outer { "has an outer ring that lies inside of another" } else { "has a hole that lies outside, or in another hole" };
-            return Err(Error::InvalidPolygon { problem: what.into(), at: inputs[ring[0] as usize] });
+/// A number to six digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}
+
+/// Twice the area that a ring encloses, negative if it runs clockwise.
+fn twice_area(ring: &[DVec2]) -> f64 {
+    let Some(&from) = ring.first() else { return 0.0 };
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| (a - from).perp_dot(b - from)).sum()
+}
+
+/// The area that a ring in input units encloses, negative if it runs clockwise.
+fn signed_area(ring: &[[f64; 2]]) -> f64 {
+    let ring: Vec<DVec2> = ring.iter().map(|&p| p.into()).collect();
+    0.5 * twice_area(&ring)
+}
+
+/// Checks that no hole lies outside of the first ring of its shape.
+fn check_holes(shapes: &[Shape]) -> Result<(), Error> {
+    for shape in shapes {
+        let Some((outer, holes)) = shape.rings.split_first() else { continue };
+        if let Some(&at) = holes.iter().filter(|hole| is_apart(hole, outer)).find_map(|hole| hole.first()) {
+            return Err(Error::InvalidPolygon { problem: "has a hole that lies outside".into(), at });
         }
-        n_turned += usize::from(is_counter_clockwise != is_outer);
-    }
-    if n_turned > 0 {
-        repairs.push(format!("{n_turned} rings ran the wrong way, and were turned"));
     }
     Ok(())
+}
+
+/// Whether no corner of a ring lies within another, nor the other's within it.
+fn is_apart(one: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
+    let is_within = |p: &[f64; 2], ring: &[[f64; 2]]| {
+        let sides = ring.iter().zip(ring.iter().cycle().skip(1));
+        let crossed = sides.filter(|(a, b)| {
+            (a[1] <= p[1]) != (b[1] <= p[1]) && {
+                let x = a[0] + (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1]));
+                x >= p[0]
+            }
+        });
+        crossed.count() % 2 == 1 || ring.contains(p)
+    };
+    !one.iter().any(|p| is_within(p, other)) && !other.iter().any(|p| is_within(p, one))
 }
