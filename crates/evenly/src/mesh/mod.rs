@@ -43,7 +43,7 @@ use crate::error::Error;
 use crate::points::{MAX_POINTS, Random};
 use crate::polygon::Polygon;
 use crate::run::{Outcome, Phase, Report, RunContext};
-use crate::space::{Domain, Space};
+use crate::space::{Domain, SegmentTree, Space};
 
 /// The smallest spacing that the domain's details are followed to, in wanted spacings.
 const FLOOR: f64 = 1.0 / 512.0;
@@ -238,14 +238,11 @@ fn meshed(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Resul
     let parts = border::divide(&outline, &mut background);
     limit_growth(&mut background.sizing, params.growth);
 
-    // 3. Points inside: what the spacing asks for. Those on the border count half.
-    let total = total_mass(&background.sizing);
+    // 3. Points inside: what the spacing asks for.
     let n_on_segments = outline.points.len() + parts.iter().map(|parts| parts.points.len()).sum::<usize>();
-    let n_inside = (total - 0.5 * n_on_segments as f64).round().max(0.0);
-    if n_inside + n_on_segments as f64 > MAX_POINTS as f64 {
-        return Err(Error::TooManyPoints(n_inside as usize + n_on_segments, MAX_POINTS));
-    }
-    let inside = scatter(&background.sizing, n_inside as usize, total, &mut Random::new(params.seed, 11));
+    require_few(total_mass(&background.sizing) + 0.5 * n_on_segments as f64)?;
+    let segments: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
+    let inside = scatter(&background.sizing, &SegmentTree::new(&segments), &mut Random::new(params.seed, 11));
     let state = State::new(&outline, background, &parts, inside);
 
     // 4. They find their places.

@@ -9,6 +9,7 @@ mod segment_tree;
 pub(crate) use border::Border;
 pub(crate) use domain::Domain;
 pub(crate) use grid::{GRID, snap};
+pub(crate) use segment_tree::SegmentTree;
 pub use region::Region;
 
 use serde::Serialize;

@@ -1,5 +1,7 @@
 //! [`SegmentTree`]: segments in boxes in boxes, so that few are looked at, however unevenly they lie.
 
+use std::cell::Cell;
+
 use glam::DVec2;
 
 /// Segments in a leaf at most.
@@ -9,7 +11,7 @@ const DEEPEST: usize = 64;
 
 /// Segments by where they are; each has a number, in the order in which they were given.
 #[derive(Debug)]
-pub(super) struct SegmentTree {
+pub(crate) struct SegmentTree {
     nodes: Vec<Node>,
     /// The segments leaf by leaf, with their numbers.
     segments: Vec<([DVec2; 2], u32)>,
@@ -82,6 +84,26 @@ impl SegmentTree {
         }
         false
     }
+
+    /// How far the nearest segment is from `p`; `most` where that is less.
+    pub fn distance(&self, p: DVec2, most: f64) -> f64 {
+        // Boxes are asked about while segments come nearer.
+        let least = Cell::new(most * most);
+        let may_hold = |low: DVec2, high: DVec2| p.distance_squared(p.clamp(low, high)) < least.get();
+        self.find(may_hold, |ends, _| {
+            least.set(least.get().min(p.distance_squared(nearest(p, ends))));
+            false
+        });
+        least.get().sqrt()
+    }
+}
+
+/// The place on a segment that is nearest to `p`.
+fn nearest(p: DVec2, [a, b]: [DVec2; 2]) -> DVec2 {
+    let way = b - a;
+    let share = (p - a).dot(way) / way.length_squared();
+    // A segment without a length is its own nearest place.
+    if share.is_nan() { a } else { a + share.clamp(0.0, 1.0) * way }
 }
 
 #[cfg(test)]
@@ -110,6 +132,9 @@ mod tests {
                     false
                 });
                 found.sort_unstable();
+                let p = place(0.02);
+                let expected = segments.iter().map(|&ends| p.distance(nearest(p, ends))).fold(0.015, f64::min);
+                assert_eq!(tree.distance(p, 0.015), expected);
                 let all = (0..).zip(&segments).filter(|(_, [a, b])| meets(a.min(*b), a.max(*b)));
                 assert_eq!(found, all.map(|(number, _)| number).collect::<Vec<u32>>());
             }
