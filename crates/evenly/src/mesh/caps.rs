@@ -1,7 +1,8 @@
 //! Sharp corners are cut off: each becomes one isosceles triangle, and what is left of the domain has no corner below 60 degrees.
 //!
-//! No mesh has better angles than its corners, and refinement does not end at sharp ones. With the corner's triangle set apart, neither the sizing nor the
-//! points know of it.
+//! No mesh has better angles than its corners, and refinement does not end at sharp ones. With the
+//! corner's triangle set apart, neither the sizing nor the points know of it. A needle is set apart as
+//! far as it is much narrower than the spacing: as a ladder, whose rungs are a spacing apart.
 
 use std::collections::{HashMap, HashSet};
 
@@ -19,11 +20,16 @@ const SHARE: f64 = 0.45;
 /// Caps whose base is shorter than this are not cut: their corner stays as it is.
 const LEAST_BASE: f64 = 1e3 * GRID;
 
+/// Corners whose caps are narrower than this part of their length are needles.
+const NARROW: f64 = 0.125;
+
 /// A triangle at a sharp corner.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Cap {
     /// The corner, and the ends of the base, counter-clockwise.
     pub corners: [u32; 3],
+    /// Of a needle, from the corner on, the ends of rungs: on the leg from the corner, and on that to it.
+    pub rungs: Vec<[u32; 2]>,
     /// On what its legs lie: that towards the corner, and that from it.
     pub legs: [Of; 2],
     /// The outline's segment that is its base.
@@ -55,11 +61,23 @@ pub(super) fn cut_off(outline: &Outline, planar: &Planar, radii: &[f64]) -> (Out
         }
         let (leaving, arriving) = (source[half_edges.target(first) as usize], source[half_edges.origin[prev(last) as usize] as usize]);
         let (Some(&to), Some(&from)) = (number.get(&[corner, leaving]), number.get(&[arriving, corner])) else { continue };
-        let radius = radii[corner as usize].min(SHARE * room);
-        let along = |v: u32| snap(at + radius * (outline.points[v as usize] - at).normalize_or_zero());
-        let (p, q) = (along(leaving), along(arriving));
-        if p.distance(q) < LEAST_BASE || !is_left_turn(p - at, q - at) {
+        let ends = |radius: f64| [leaving, arriving].map(|v| snap(at + radius * (outline.points[v as usize] - at).normalize_or_zero()));
+        let is_base = |[p, q]: [DVec2; 2]| p.distance(q) >= LEAST_BASE && is_left_turn(p - at, q - at);
+        let step = radii[corner as usize];
+        let width = 2.0 * (0.5 * angle).sin();
+        let is_needle = width < NARROW;
+        // Up to where it is wide enough for triangles, or ends.
+        let radius = if is_needle { (NARROW * step / width).min(room * (1.0 - width)) } else { step.min(SHARE * room) };
+        let [p, q] = ends(radius);
+        if !is_base([p, q]) {
             continue;
+        }
+        let n_rungs = if is_needle { (radius / step).ceil() } else { 1.0 };
+        let rungs = (1..n_rungs as u32).map(|k| ends(radius * f64::from(k) / n_rungs)).filter(|&rung| is_base(rung));
+        let mut numbers = Vec::new();
+        for rung in rungs {
+            numbers.push([cut.points.len() as u32, cut.points.len() as u32 + 1]);
+            cut.points.extend(rung);
         }
         let n = cut.points.len() as u32;
         cut.points.extend([p, q]);
@@ -67,7 +85,8 @@ pub(super) fn cut_off(outline: &Outline, planar: &Planar, radii: &[f64]) -> (Out
         cut.segments[from].ends[1] = n + 1;
         let base = cut.segments.len() as u32;
         cut.segments.push(Segment { ends: [n + 1, n], of: Of::Base });
-        caps.push(Cap { corners: [corner, n, n + 1], legs: [outline.segments[from].of, outline.segments[to].of], base });
+        let legs = [outline.segments[from].of, outline.segments[to].of];
+        caps.push(Cap { corners: [corner, n, n + 1], rungs: numbers, legs, base });
     }
     (cut, caps)
 }

@@ -12,23 +12,43 @@ use crate::space::Domain;
 use crate::triangulation::{BORDER, HalfEdges, Planar, Refinement, Refining, Sizing, Triangulation, prev};
 
 /// Angles below this are refined; or below what is wanted, as far as refinement ends in practice.
-const REFINED_DEG: f64 = 25.5;
+pub(super) const REFINED_DEG: f64 = 25.5;
 const MOST_REFINED_DEG: f64 = 30.0;
+/// Refinement adds no more points than so many times those that are there, and so many.
+const MOST_ADDED: usize = 3;
+const LEAST_ADDED: usize = 100_000;
 
 /// The angle below which triangles are refined, where this one is wanted.
 pub(super) fn refined_deg(min_angle_deg: Option<f64>) -> f64 {
     (min_angle_deg.unwrap_or(0.0) + 0.1).clamp(REFINED_DEG, MOST_REFINED_DEG)
 }
 
-/// The mesh of settled points, refined where angles are below `refined_deg` and segments not shorter than `floor`; and how many points that took.
-pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: &Domain, refined_deg: f64, floor: f64) -> (Mesh, usize) {
+/// The mesh of settled points, refined where angles are below `refined_deg`, and how many points that
+/// took. Segments are halved down to the first of two lengths; where that takes too many points, as
+/// between walls that nearly touch, to the second.
+pub(super) fn finish(
+    settled: Settled,
+    outline: &Outline,
+    caps: &[Cap],
+    domain: &Domain,
+    refined_deg: f64,
+    floors: [f64; 2],
+) -> (Mesh, usize) {
     let Settled { triangulation, mut corners, edges, sizes, sizing, hints, .. } = settled;
     let Triangulation { half_edges, positions, .. } = triangulation;
     let n_settled = positions.len();
     let aspect = 0.5 / refined_deg.to_radians().sin();
     let planar = Planar { half_edges, positions, ..Planar::default() };
-    let refining = Refining { longest: f64::INFINITY, aspect, floor, halves_all: false, max_vertices: 2 * n_settled + 1000, largest: None };
-    let Refinement { half_edges, positions, segments, .. } = Refinement::run(planar, edges.into_iter().collect(), refining);
+    let refined = |floor: f64, max_vertices: usize| {
+        let refining = Refining { longest: f64::INFINITY, aspect, floor, halves_all: false, is_sparing: true, max_vertices, largest: None };
+        Refinement::run(planar.clone(), edges.iter().copied().collect(), refining)
+    };
+    let most = MOST_ADDED * n_settled + LEAST_ADDED;
+    let mut refinement = refined(floors[0], most);
+    if refinement.positions.len() >= most {
+        refinement = refined(floors[1], 2 * most);
+    }
+    let Refinement { half_edges, positions, segments, .. } = refinement;
     corners.resize(positions.len(), BORDER);
 
     let sizes = sizes_of_all(sizes, hints, &sizing, &half_edges, &positions);
@@ -59,22 +79,42 @@ pub(super) fn finish(settled: Settled, outline: &Outline, caps: &[Cap], domain: 
             Of::Base => bases.entry(number).or_default().push(ends),
         }
     }
+    let n_triangles = mesh.triangles.len();
     for cap in caps {
-        let corner = cap.corners[0];
-        let tip = *numbers.entry(corner).or_insert(mesh.vertices.len());
-        if tip == mesh.vertices.len() {
-            mesh.vertices.push(outline.given[corner as usize]);
-            mesh.sizes.push(mesh.sizes[numbers[&cap.corners[1]]]);
+        let [tip, p, q] = cap.corners;
+        let size = mesh.sizes[numbers[&p]];
+        let mut number = |v: u32| {
+            *numbers.entry(v).or_insert_with(|| {
+                let place = outline.given.get(v as usize).copied().unwrap_or_else(|| domain.restore(outline.points[v as usize]));
+                mesh.vertices.push(place);
+                mesh.sizes.push(size);
+                mesh.vertices.len() - 1
+            })
+        };
+        // From the corner on, rung by rung: the ends on the leg from it and on that to it.
+        let tip = number(tip);
+        let rungs: Vec<[usize; 2]> = cap.rungs.iter().map(|&rung| rung.map(&mut number)).collect();
+        let base = [p, q].map(&mut number);
+        let mut last: Option<[usize; 2]> = None;
+        for &[on, to] in &rungs {
+            match last {
+                None => mesh.triangles.push([tip, on, to]),
+                Some([from, back]) => mesh.triangles.extend([[from, on, to], [from, to, back]]),
+            }
+            last = Some([on, to]);
         }
         let sides = bases.get(&cap.base).map(Vec::as_slice).unwrap_or_default();
-        mesh.triangles.extend(sides.iter().map(|&[from, to]| [tip, to, from]));
-        let [p, q] = [cap.corners[1], cap.corners[2]].map(|end| numbers[&end]);
-        for (ends, leg) in [([q, tip], cap.legs[0]), ([tip, p], cap.legs[1])] {
-            if let Of::Border(segment) = leg {
-                mesh.edges.push(MeshEdge { ends, kind: EdgeKind::Border { segment: segment as usize } });
-            }
+        let apex = last.map_or(tip, |[from, _]| from);
+        mesh.triangles.extend(sides.iter().map(|&[from, to]| [apex, to, from]));
+        mesh.triangles.extend(last.map(|[from, back]| [from, base[1], back]));
+        for (k, leg) in [(1, cap.legs[0]), (0, cap.legs[1])] {
+            let Of::Border(segment) = leg else { continue };
+            let kind = EdgeKind::Border { segment: segment as usize };
+            let along: Vec<usize> = [tip].into_iter().chain(rungs.iter().chain([&base]).map(|ends| ends[k])).collect();
+            mesh.edges.extend(along.windows(2).map(|w| MeshEdge { ends: if k == 0 { [w[0], w[1]] } else { [w[1], w[0]] }, kind }));
         }
     }
+    mesh.n_in_corners = mesh.triangles.len() - n_triangles;
     (mesh, positions.len() - n_settled)
 }
 

@@ -45,8 +45,10 @@ use crate::polygon::Polygon;
 use crate::run::{Outcome, Phase, Report, RunContext};
 use crate::space::{Domain, SegmentTree, Space};
 
-/// The smallest spacing that the domain's details are followed to, in wanted spacings.
+/// The smallest spacing that points follow the domain's details to, in wanted spacings.
 const FLOOR: f64 = 1.0 / 512.0;
+/// And the shortest sides that refinement makes at the end, in the same.
+const FINEST: f64 = 1e-6;
 /// The shortest lengths, in distances between neighbouring f64.
 const RESOLVED: f64 = 1e3;
 /// Where triangles stay obtuse that shall not be, the spacing is made to grow more slowly: by so much a length, one after the other.
@@ -108,9 +110,11 @@ impl MeshParams<'_> {
             largest: self.largest.unwrap_or(self.spacing) / unit,
             growth: self.growth,
             floor: (FLOOR * self.spacing / unit).max(least),
+            finest: (FINEST * self.spacing / unit).max(outline::LEAST),
             least,
             max_vertices: MAX_POINTS / 4,
             wanted,
+            follows_all: self.is_non_obtuse || self.min_angle_deg.is_some_and(|least| least > finish::REFINED_DEG),
         }
     }
 
@@ -153,6 +157,9 @@ pub struct Mesh {
     pub edges: Vec<MeshEdge>,
     /// The length of edges that is wanted at each vertex, in input units: what was asked for, and less where the border is detailed. Empty where nobody knows.
     pub sizes: Vec<f64>,
+    /// So many triangles, the last ones, lie in corners of the polygon that are sharper than 60 degrees:
+    /// there its border forces the angles.
+    pub n_in_corners: usize,
 }
 
 impl Mesh {
@@ -254,7 +261,7 @@ fn meshed(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Resul
 
     // 5. What is left is refined, and the corners come back.
     let least_deg = if report.outcome == Outcome::Cancelled { 0.0 } else { finish::refined_deg(params.min_angle_deg) };
-    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, least_deg, 0.5 * floor);
+    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, least_deg, [FINEST * spacing, 0.5 * floor]);
     report.n_points = mesh.vertices.len();
     if n_added > 0 {
         report.notes.push(format!("{n_added} points were added at the end, where triangles were thin"));
