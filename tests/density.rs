@@ -242,7 +242,7 @@ fn procrustes_keeps_points_apart_at_the_edges_of_black_areas() {
     let disk = |p: [f64; 2]| f64::from(u8::from((p[0] - 0.5).hypot(p[1] - 0.5) < 0.3));
     let board = |p: [f64; 2]| f64::from(u8::from(((8.0 * p[0]) as usize + (8.0 * p[1]) as usize).is_multiple_of(2)));
     let ring = |p: [f64; 2]| {
-        let is_alone = [0, 1].iter().all(|&axis| (p[axis] * 200.0) as usize % 25 == 0);
+        let is_alone = [0, 1].iter().all(|&axis| ((p[axis] * 200.0) as usize).is_multiple_of(25));
         f64::from(u8::from(((p[0] - 0.5).hypot(p[1] - 0.5) - 0.35).abs() < 0.005)) + 0.5 * f64::from(u8::from(is_alone))
     };
     let pictures = [Density::image(2, 1, &[0.0, 1.0]).unwrap(), function(100, disk), function(200, board), function(200, ring)];

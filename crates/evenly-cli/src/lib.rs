@@ -3,6 +3,7 @@
 mod args;
 mod commands;
 mod comparison;
+mod details;
 mod improve;
 mod input;
 mod interrupt;

@@ -16,7 +16,7 @@ use crate::shared_args::{DensityArgs, LongArgs};
     after_help = "Examples:\n  evenly mesh area.geojson --spacing 50 -o area.msh\n  evenly mesh plate.svg -n 20000 --no-obtuse -o plate.vtu --cells cells.geojson\n\n\
                   Polygons: GeoJSON, WKT, SVG (what its shapes enclose), or text: x y a line, a blank line between rings, holes inside.\n\
                   Red triangles in drawings have an angle below 25 degrees, light red ones are obtuse.\n\
-                  Exit code 1: the mesh is written, but --min-angle or --no-obtuse was not reached everywhere; where and why is said."
+                  Exit code 1: the mesh is written, but has angles below --min-angle or obtuse ones with --no-obtuse; where and why is said."
 )]
 pub struct Mesh {
     /// A polygon, with holes and in several parts as may be; - is stdin
@@ -64,6 +64,9 @@ pub struct MeshWishes {
     /// About how many triangles, instead; there are more where the border is detailed
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_triangles: Option<usize>,
+    /// Fewer corners first: no place of the border goes farther than this, in the polygon's units; rings and areas stay
+    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
+    pub simplify: Option<f64>,
     /// The same seed gives the same mesh
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -81,7 +84,7 @@ pub struct MeshWishes {
     pub max_spacing: Option<f64>,
     #[command(flatten)]
     pub density: DensityArgs,
-    /// No angle shall be smaller, in degrees, up to 35; but at sharper corners of the polygon
+    /// No angle shall be smaller, in degrees, up to 35; but in sharper corners of the polygon [default: 25]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, help_heading = "Demands")]
     pub min_angle: Option<f64>,
     /// No triangle shall be obtuse

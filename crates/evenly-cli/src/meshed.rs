@@ -3,17 +3,25 @@
 use std::path::Path;
 
 use anyhow::bail;
-use evenly::{Density, Mesh, MeshParams, MeshQuality, Polygon, Report, RunContext, expected_triangles, mesh, mesh_quality};
+use evenly::{Density, Mesh, MeshParams, MeshQuality, Outcome, Polygon, Report, RunContext, expected_triangles, mesh, mesh_quality};
 use serde_json::Value;
 
-use crate::measured::told;
+use crate::details;
+use crate::measured;
 use crate::mesh_args::{MeshWishes, Rule};
 use crate::parse::read_words;
 use crate::sizes::Sizes;
-use crate::unmet::{Unmet, unmet};
+use crate::unmet::{Unmet, forced, unmet};
 
 /// Parameters, and the flags that hold them.
-const FLAGS: [(&str, &str); 4] = [("spacing", "spacing"), ("growth", "grade"), ("largest", "max-spacing"), ("min_angle_deg", "min-angle")];
+const FLAGS: [(&str, &str); 5] =
+    [("simplify", "simplify"), ("spacing", "spacing"), ("growth", "grade"), ("largest", "max-spacing"), ("min_angle_deg", "min-angle")];
+/// No angle is to be smaller, if nothing else is said, in degrees.
+const LEAST_ANGLE_DEG: f64 = 25.0;
+/// The spacing for so many triangles is no more than so many times that without details.
+const LARGEST: f64 = 3.0;
+/// Corners nearer to each other than this part of the spacing are joined.
+const WELDED: f64 = 1e-6;
 /// A spacing for so many triangles is found in so many steps.
 const ESTIMATES: usize = 4;
 
@@ -55,11 +63,24 @@ pub fn meshed(polygon: &Polygon, name: &Path, wishes: &MeshWishes, given: Given,
     // A triangle with sides h has the area sqrt(3) / 4 h^2.
     let of_triangles = |n: usize| (4.0 * polygon.area() / (3f64.sqrt() * n as f64)).sqrt();
     let mut spacing = wishes.spacing.unwrap_or_else(|| of_triangles(wishes.n_triangles.unwrap_or(1)));
+    let n_repairs = polygon.repairs().len();
+    let corners = |polygon: &Polygon| polygon.rings().iter().map(Vec::len).sum::<usize>();
+    let mut notes = Vec::new();
+    let mut own = polygon.clone();
+    if let Some(tolerance) = wishes.simplify {
+        own = own.simplified(tolerance).map_err(|e| measured::told(e, name, &FLAGS))?;
+        notes.push(format!("simplified: {} corners instead of {}", corners(&own), corners(polygon)));
+    }
+    if spacing > 0.0 && spacing.is_finite() {
+        own = own.welded(WELDED * spacing)?;
+    }
+    notes.extend(own.repairs()[n_repairs..].iter().cloned());
+    let polygon = &own;
     let growth = wishes.grade.unwrap_or(MeshParams::new(spacing).growth);
     let Given { fixed, lines, sizes, density } = given;
     let sizes = Sizes::new(sizes, density, polygon, growth)?;
     let wanted = |spacing: f64| sizes.as_ref().map(|sizes| move |place: [f64; 2]| sizes.at(place, spacing));
-    let told = |e| told(e, name, &FLAGS);
+    let told = |e| measured::told(e, name, &FLAGS);
     let params_of = |spacing: f64| MeshParams {
         growth,
         largest: match (wishes.grade, wishes.max_spacing) {
@@ -82,15 +103,22 @@ pub fn meshed(polygon: &Polygon, name: &Path, wishes: &MeshWishes, given: Given,
             let wanted = wanted(spacing);
             let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
             let expected = expected_triangles(polygon, &params).map_err(told)?;
-            spacing *= (expected / n_triangles as f64).sqrt();
+            // Where details take most of them, larger triangles elsewhere save little.
+            spacing = (spacing * (expected / n_triangles as f64).sqrt()).min(LARGEST * of_triangles(n_triangles));
         }
     }
     let wanted = wanted(spacing);
     let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
-    let (mesh, report) = mesh(polygon, &params, run).map_err(told)?;
+    let (mesh, mut report) = mesh(polygon, &params, run).map_err(told)?;
+    report.notes.splice(0..0, notes);
+    report.notes.extend(forced(&mesh, LEAST_ANGLE_DEG));
+    if wishes.grade.is_none() && params.wanted.is_none() && report.outcome != Outcome::Cancelled {
+        let wanted = wishes.n_triangles.map_or_else(|| 4.0 * polygon.area() / (3f64.sqrt() * spacing * spacing), |n| n as f64);
+        report.notes.extend(details::told(polygon, &params, mesh.triangles.len() - mesh.n_in_corners, wanted));
+    }
     Ok(Meshed {
         quality: mesh_quality(&mesh),
-        unmet: unmet(&mesh, wishes.min_angle, wishes.no_obtuse),
+        unmet: unmet(&mesh, wishes.min_angle.unwrap_or(LEAST_ANGLE_DEG), wishes.no_obtuse),
         parameters: serde_json::json!(params),
         mesh,
         report,

@@ -27,27 +27,46 @@ impl std::fmt::Display for Unmet {
 /// An angle counts as obtuse above this.
 const OBTUSE_DEG: f64 = 90.0 + 1e-6;
 
-/// The triangles that have a smaller angle than demanded, or an obtuse one, the worst first. Those at corners of the polygon that are sharper themselves are no fault of the mesh.
-pub fn unmet(mesh: &Mesh, min_angle: Option<f64>, no_obtuse: bool) -> Vec<Unmet> {
+/// What sharp corners of the polygon force: how many triangles there have an angle below `least`.
+pub fn forced(mesh: &Mesh, least: f64) -> Option<String> {
+    let smallest = |t: usize| mesh.angles_deg(t).into_iter().fold(f64::INFINITY, f64::min);
+    let thin: Vec<usize> = in_corners(mesh).filter(|&t| smallest(t) < least).collect();
+    let &worst = thin.iter().min_by(|&&a, &&b| smallest(a).total_cmp(&smallest(b)))?;
+    let [x, y] = mesh.vertices[mesh.triangles[worst][0]];
+    let (n, deg) = (thin.len(), smallest(worst));
+    let s = if n == 1 { "" } else { "s" };
+    Some(format!(
+        "forced: {n} triangle{s} in sharp corners of the polygon with angles below {least} degrees, the sharpest {deg:.4} at ({x}, {y})"
+    ))
+}
+
+/// The triangles in sharp corners of the polygon.
+fn in_corners(mesh: &Mesh) -> std::ops::Range<usize> {
+    mesh.triangles.len() - mesh.n_in_corners..mesh.triangles.len()
+}
+
+/// The triangles that have a smaller angle than `least`, in degrees, or an obtuse one, the worst first.
+/// Those in corners of the polygon that are sharper themselves are no fault of the mesh.
+pub fn unmet(mesh: &Mesh, least: f64, no_obtuse: bool) -> Vec<Unmet> {
     let border: HashSet<[usize; 2]> =
         mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. })).map(|edge| edge.ends).collect();
     let is_held = |a: usize, b: usize| border.contains(&[a, b]) || border.contains(&[b, a]);
     let mut found = Vec::new();
     for (t, corners) in mesh.triangles.iter().enumerate() {
         let angles = mesh.angles_deg(t);
-        let [least, most] = [0, 1, 2].into_iter().fold([0, 0], |[least, most], k| {
-            [if angles[k] < angles[least] { k } else { least }, if angles[k] > angles[most] { k } else { most }]
+        let [smallest, largest] = [0, 1, 2].into_iter().fold([0, 0], |[smallest, largest], k| {
+            [if angles[k] < angles[smallest] { k } else { smallest }, if angles[k] > angles[largest] { k } else { largest }]
         });
         let sides = [0, 1, 2].map(|k| is_held(corners[k], corners[(k + 1) % 3]));
         let is_corner = |k: usize| sides[k] && sides[(k + 2) % 3];
         let n_held = sides.iter().filter(|&&is| is).count();
         let why = if n_held > 0 { "where the border is detailed or the domain narrow" } else { "near where the border is detailed" };
         let mut miss = |demand, k: usize| found.push(Unmet { demand, angle_deg: angles[k], at: mesh.vertices[corners[k]], why });
-        if min_angle.is_some_and(|wanted| angles[least] < wanted) && !is_corner(least) {
-            miss("min angle", least);
+        if angles[smallest] < least && !is_corner(smallest) && !in_corners(mesh).contains(&t) {
+            miss("min angle", smallest);
         }
-        if no_obtuse && angles[most] > OBTUSE_DEG {
-            miss("no obtuse", most);
+        if no_obtuse && angles[largest] > OBTUSE_DEG {
+            miss("no obtuse", largest);
         }
     }
     let badness = |unmet: &Unmet| if unmet.demand == "min angle" { unmet.angle_deg } else { 180.0 - unmet.angle_deg };

@@ -50,19 +50,20 @@ pub fn read_polygon(path: &Path, tolerance: Option<f64>) -> Result<Polygon, Erro
 /// As [`read_polygon`].
 pub fn read_lines(path: &Path) -> Result<Vec<Vec<[f64; 2]>>, Error> {
     let (name, Shapes { parts, lines, .. }) = read(path, None)?;
-    let lines: Vec<Points> = parts.into_iter().flatten().map(closed).chain(lines).filter(|line| line.len() > 1).collect();
+    let mut rings: Vec<Points> = parts.into_iter().flatten().collect();
+    rings.iter_mut().for_each(close);
+    let lines: Vec<Points> = rings.into_iter().chain(lines).filter(|line| line.len() > 1).collect();
     if lines.is_empty() {
         return Err(Error::content(name, "there is no line in it"));
     }
     Ok(lines)
 }
 
-/// A ring as a line that ends where it begins.
-fn closed(mut ring: Points) -> Points {
+/// Ends a ring where it begins.
+fn close(ring: &mut Points) {
     if ring.first() != ring.last() {
         ring.extend(ring.first().copied());
     }
-    ring
 }
 
 fn read(path: &Path, tolerance: Option<f64>) -> Result<(String, Shapes), Error> {

@@ -37,7 +37,7 @@ pub fn mesh(
         let made = meshed(&polygon, "the polygon".as_ref(), &wishes(&words)?, given, context)?;
         let unmet: Vec<String> = made.unmet.iter().map(ToString::to_string).collect();
         let said = json(&serde_json::json!({ "quality": made.quality, "run": made.report, "notes": made.report.notes, "unmet": unmet }))?;
-        let Mesh { vertices, triangles, edges, sizes } = made.mesh;
+        let Mesh { vertices, triangles, edges, sizes, .. } = made.mesh;
         answer(move |py| {
             let ends = edges.iter().map(|edge| edge.ends.map(|v| v as i64)).collect();
             let triangles = triangles.iter().map(|corners| corners.map(|v| v as i64)).collect();
@@ -64,7 +64,7 @@ fn whole(vertices: &Rows, triangles: &Integers, edges: &Integers, tags: Vec<i64>
     };
     let ends = indices(edges)?;
     let edges = ends.into_iter().zip(tags).map(|(ends, tag)| MeshEdge { ends, kind: kind(tag) }).collect();
-    Ok(Mesh { vertices: rows(vertices)?, triangles: indices(triangles)?, edges, sizes })
+    Ok(Mesh { vertices: rows(vertices)?, triangles: indices(triangles)?, edges, sizes, n_in_corners: 0 })
 }
 
 /// Writes a mesh, whose format the path tells.

@@ -9,7 +9,7 @@ use roxmltree::Document;
 use usvg::tiny_skia_path::PathSegment;
 use usvg::{ClipPath, Group, Node, Options, Path, Tree};
 
-use super::{Points, Shapes};
+use super::{Points, Shapes, close};
 
 /// How far off flattened curves may be, in the drawing's size, if nothing else is said.
 const TOLERANCE: f64 = 1e-3;
@@ -137,7 +137,7 @@ fn outlines(path: &BezPath, tolerance: f64) -> Vec<Points> {
     kurbo::flatten(path, tolerance, |element| match element {
         PathEl::MoveTo(p) => outlines.push(vec![[p.x, p.y]]),
         PathEl::LineTo(p) => outlines.last_mut().into_iter().for_each(|line| line.push([p.x, p.y])),
-        PathEl::ClosePath => outlines.last_mut().into_iter().for_each(|line| line.extend(line.first().copied())),
+        PathEl::ClosePath => outlines.last_mut().into_iter().for_each(close),
         PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
     });
     outlines.retain(|line| line.len() > 1 && line.iter().flatten().all(|x| x.is_finite()));

@@ -31,7 +31,7 @@ const LARGEST_NEAR: f64 = 0.04;
 /// Nearer to a segment than this, in spacings, comes no point; up to the next distance there are more
 /// than elsewhere, by so much that along a straight segment the points on it make up for what is missing:
 /// they stand for a strip of half a row, which is `sqrt(3) / 4` wide.
-const NEAREST: f64 = 0.55;
+const NEAREST: f64 = 0.5;
 const NEAR: f64 = 0.9;
 const DENSER: f64 = (NEAR - 0.433_012_701_892_219_3) / (NEAR - NEAREST);
 /// Points keep off the sides of their piece by this part of it.

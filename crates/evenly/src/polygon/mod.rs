@@ -3,7 +3,9 @@
 mod clean;
 mod corners;
 mod crossings;
+mod simplify;
 mod union;
+mod weld;
 
 use std::collections::{HashMap, HashSet};
 
@@ -151,8 +153,9 @@ impl Polygon {
         if n_doubled > 0 {
             repairs.push(format!("{} there twice: left out", counted(n_doubled, "ring is", "rings are")));
         }
-        if let Some([x, y]) = corners.inputs.get(n_given) {
+        if let Some(&at) = corners.inputs.get(n_given) {
             let n = corners.places.len() - n_given;
+            let [x, y] = at.map(|x| in_digits_of(x, unit));
             repairs.push(format!("the boundary crosses itself in {}, the first at ({x}, {y}): cut there", counted(n, "place", "places")));
         }
         if shared_area > LEAST_SHARED * twice_inside {
@@ -310,6 +313,12 @@ fn crosses(inputs: &[[f64; 2]], segment: [u32; 2]) -> Error {
 /// A number with the right one of two words.
 fn counted(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
+}
+
+/// A coordinate to nine digits of the domain's size.
+fn in_digits_of(x: f64, size: f64) -> f64 {
+    let n_digits = (9 - size.log10().floor() as i32).clamp(0, 300) as usize;
+    format!("{x:.n_digits$}").parse().unwrap_or(x)
 }
 
 /// A number to six digits.

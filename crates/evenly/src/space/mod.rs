@@ -9,8 +9,8 @@ mod segment_tree;
 pub(crate) use border::Border;
 pub(crate) use domain::Domain;
 pub(crate) use grid::{GRID, snap};
-pub(crate) use segment_tree::SegmentTree;
 pub use region::Region;
+pub(crate) use segment_tree::{SegmentTree, nearest};
 
 use serde::Serialize;
 

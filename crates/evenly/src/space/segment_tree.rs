@@ -99,7 +99,7 @@ impl SegmentTree {
 }
 
 /// The place on a segment that is nearest to `p`.
-fn nearest(p: DVec2, [a, b]: [DVec2; 2]) -> DVec2 {
+pub(crate) fn nearest(p: DVec2, [a, b]: [DVec2; 2]) -> DVec2 {
     let way = b - a;
     let share = (p - a).dot(way) / way.length_squared();
     // A segment without a length is its own nearest place.
