@@ -130,6 +130,7 @@ fn bad_usage_is_one_clear_line() {
     let shell = shell();
     shell.write("empty.txt", "# nothing\n");
     shell.write("outside.txt", "5 5\n");
+    shell.write("away.txt", "5 5\n6 6\n");
     for (line, said) in [
         ("mesh l.txt -o m.msh", "--spacing"),
         ("mesh l.txt --spacing 0.1 -n 100 -o m.msh", "cannot be used with"),
@@ -143,7 +144,8 @@ fn bad_usage_is_one_clear_line() {
         ("mesh l.txt --spacing 0.1 -o m.msh --cells m.svg", ".geojson"),
         ("mesh empty.txt --spacing 0.1 -o m.msh", "there is no polygon in it"),
         ("mesh missing.txt --spacing 0.1 -o m.msh", "missing.txt"),
-        ("mesh l.txt --spacing 0.1 --fixed outside.txt -o m.msh", "does not hold"),
+        ("mesh l.txt --spacing 0.1 --fixed outside.txt -o m.msh", "outside.txt: the polygon does not hold the fixed point (5, 5)"),
+        ("mesh l.txt --spacing 0.1 --lines away.txt -o m.msh", "away.txt: the polygon does not hold the lines, that from (5, 5)"),
         ("mesh l.txt --spacing 0.1 -o l.txt", "exists already"),
     ] {
         let found = shell.refused(line);
@@ -179,4 +181,44 @@ fn only_sharp_corners_have_small_angles_and_that_is_no_fault() {
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.code() == Some(0) && told.contains("forced: "), "{told}");
     shell.ok("mesh l.txt --spacing 0.2 --min-angle 20 -q -o l.obj");
+}
+
+#[test]
+fn longitudes_and_latitudes_are_told() {
+    let shell = shell();
+    let geojson = |ring: &str| format!(r#"{{"type":"Polygon","coordinates":[[{ring}]]}}"#);
+    shell.write("degrees.json", geojson("[10,50],[12,50],[12,52],[10,50]"));
+    shell.write("metres.json", geojson("[100,500],[1200,500],[1200,5200],[100,500]"));
+    let parts = "[[[-180,10],[-175,10],[-175,15],[-180,10]]],[[[175,10],[180,10],[180,15],[175,10]]]";
+    shell.write("both.json", format!(r#"{{"type":"MultiPolygon","coordinates":[{parts}]}}"#));
+    let said = |file: &str| String::from_utf8(shell.run(&format!("mesh {file} -n 50 --force -o m.obj")).stderr).unwrap();
+    assert!(said("degrees.json").contains("longitudes"));
+    assert!(!said("metres.json").contains("longitudes"));
+    assert!(said("both.json").contains("antimeridian"));
+}
+
+#[test]
+fn regions_stay_apart() {
+    let shell = shell();
+    let feature = |name: &str, ring: &str| {
+        format!(r#"{{"type":"Feature","properties":{{"name":"{name}"}},"geometry":{{"type":"Polygon","coordinates":[[{ring}]]}}}}"#)
+    };
+    // Two that touch, one in the middle of them that comes too late for what they have, and one by itself.
+    let features = [
+        feature("west", "[0,0],[500,0],[500,900],[0,900],[0,0]"),
+        feature("east", "[500,0],[1000,0],[1000,900],[500,900],[500,0]"),
+        feature("late", "[800,800],[1200,800],[1200,1000],[800,1000],[800,800]"),
+        feature("apart", "[2000,0],[2300,0],[2300,300],[2000,0]"),
+    ];
+    shell.write("parcels.json", format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, features.join(",")));
+    let record = json(&shell.ok("mesh parcels.json --spacing 50 --regions --json -q -o parcels.msh"));
+    assert!((record["quality"]["area"].as_f64().unwrap() - (900_000.0 + 60_000.0 + 45_000.0)).abs() < 1e-3);
+    let text = shell.read("parcels.msh");
+    for line in ["2 3 \"west\"", "2 4 \"east\"", "1 5 \"around late\"", "2 6 \"apart\""] {
+        assert!(text.contains(line), "{line}");
+    }
+    shell.ok("mesh parcels.json --spacing 50 --regions -q -o parcels.vtu");
+    assert!(shell.read("parcels.vtu").contains("Name=\"region\""));
+    shell.ok("mesh parcels.json --spacing 50 --regions -q -o parcels.npz");
+    assert!(shell.refused("mesh parcels.json --spacing 50 --regions --simplify 1 -o no.msh").contains("--regions"));
 }

@@ -7,8 +7,8 @@ mod shapes;
 use std::collections::HashMap;
 
 use evenly::{
-    CancelToken, DistMeshParams, EdgeKind, Error, LloydParams, Mesh, MeshEdge, MeshMethod, MeshParams, OptBetaParams, Outcome, Polygon,
-    RunContext, mesh, mesh_cells, mesh_quality,
+    CancelToken, DistMeshParams, EdgeKind, Error, LloydParams, Mesh, MeshEdge, MeshMethod, MeshParams, MeshRegion, OptBetaParams, Outcome,
+    Polygon, RunContext, mesh, mesh_cells, mesh_quality,
 };
 use proptest::prelude::*;
 use shapes::{Ring, circle, comb, holed_square, l_shape, moved, needle, nested, passage, rectangle, slit, spiral, star};
@@ -269,6 +269,43 @@ fn lines_may_overlap_and_touch() {
 }
 
 #[test]
+fn lines_are_split_where_they_cross_and_clipped_at_the_border() {
+    let polygon = polygon(l_shape());
+    // A cross, a ring, one across the notch, one from far outside, and one that is outside.
+    let lines = vec![
+        vec![[0.1, 0.2], [0.9, 0.3]],
+        vec![[0.4, 0.05], [0.2, 0.45]],
+        vec![[0.1, 0.6], [0.4, 0.6], [0.4, 0.9], [0.1, 0.9], [0.1, 0.6]],
+        vec![[0.9, 0.4], [0.4, 0.95]],
+        vec![[-1e6, 0.5], [0.3, 0.5]],
+        vec![[2.0, 2.0], [3.0, 3.0]],
+    ];
+    let inside = [0.8f64.hypot(0.1), 0.2f64.hypot(0.4), 1.2, 0.0, 0.3];
+    let (mesh, report) = mesh(&polygon, &MeshParams { lines: lines.clone(), ..MeshParams::new(0.05) }, &mut RunContext::default()).unwrap();
+    prove(&polygon, &mesh).unwrap();
+    for (line, expected) in inside.into_iter().enumerate() {
+        let edges = mesh.edges.iter().filter(|edge| edge.kind == EdgeKind::Line { line });
+        let length: f64 = edges.map(|edge| edge.ends.map(|v| mesh.vertices[v])).map(|[a, b]| distance(a, b)).sum();
+        assert!(line == 3 || (length - expected).abs() < 1e-9, "line {line}: {length}, expected {expected}");
+        assert!(length > 0.05);
+    }
+    assert!(report.notes.iter().any(|note| note.starts_with("1 of 6 lines lie outside")), "{:?}", report.notes);
+    assert!(mesh_quality(&mesh).min_angle_deg > 25.0);
+}
+
+#[test]
+fn many_lines_are_no_trouble() {
+    let square = polygon(vec![rectangle([0.0, 0.0], [1.0, 1.0])]);
+    let line = |k: usize| {
+        let x = (k as f64 + 0.5) / 30.0;
+        if k % 2 == 0 { vec![[x, -1.0], [x, 2.0]] } else { vec![[-1.0, x], [2.0, x]] }
+    };
+    let mesh = meshed(&square, &MeshParams { lines: (0..30).map(line).collect(), ..MeshParams::new(0.05) });
+    prove(&square, &mesh).unwrap();
+    assert!(mesh_quality(&mesh).min_angle_deg > 25.0);
+}
+
+#[test]
 fn the_spacing_may_grow_away_from_the_border_or_be_given() {
     let square = polygon(vec![rectangle([0.0, 0.0], [1.0, 1.0])]);
     let even = meshed(&square, &MeshParams::new(0.02));
@@ -386,9 +423,32 @@ fn what_lies_outside_is_refused() {
     let refused = |params: &MeshParams| mesh(&polygon, params, &mut RunContext::default()).map(|_| ()).unwrap_err().to_string();
     assert!(refused(&MeshParams { fixed: vec![[0.9, 0.9]], ..MeshParams::new(0.1) }).contains("does not hold"));
     assert!(refused(&MeshParams { fixed: vec![[9.0, 9.0]], ..MeshParams::new(0.1) }).contains("does not hold"));
-    assert!(refused(&MeshParams { lines: vec![vec![[0.9, 0.2], [0.2, 0.9]]], ..MeshParams::new(0.1) }).contains("crosses"));
     assert!(refused(&MeshParams { lines: vec![vec![[1.0, 0.5], [0.5, 1.0]]], ..MeshParams::new(0.1) }).contains("does not hold"));
     assert!(refused(&MeshParams::new(1e-300)).contains("too many"));
     assert!(refused(&MeshParams::new(0.0)).contains("spacing"));
     assert!(refused(&MeshParams::new(1e-7)).contains("too many"));
+}
+
+#[test]
+fn regions_are_kept_apart_and_the_first_has_the_place() {
+    let square = |low: [f64; 2], size: [f64; 2]| polygon(vec![rectangle(low, size)]);
+    let parts =
+        [square([0.0, 0.0], [0.5, 1.0]), square([0.5, 0.0], [0.5, 1.0]), square([0.4, 0.4], [0.2, 0.2]), square([0.9, 0.9], [0.3, 0.2])];
+    let whole = Polygon::new(parts.iter().map(|part| part.rings().to_vec()).collect()).unwrap();
+    let regions: Vec<MeshRegion> =
+        (0..).zip(parts).map(|(k, polygon): (usize, Polygon)| MeshRegion { name: format!("part {k}"), polygon }).collect();
+    let mesh = meshed(&whole, &MeshParams { regions, ..MeshParams::new(0.05) });
+    prove(&whole, &mesh).unwrap();
+    let mut areas = [0.0; 4];
+    for (t, &region) in mesh.triangles.iter().zip(&mesh.regions) {
+        let [a, b, c] = t.map(|v| mesh.vertices[v]);
+        areas[region as usize] += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    }
+    for (area, expected) in areas.into_iter().zip([0.5, 0.5, 0.0, 0.05]) {
+        assert!((area - expected).abs() < 1e-9, "{areas:?}");
+    }
+    // Between the first two, and around what the last adds within the second.
+    let between = mesh.edges.iter().filter(|edge| edge.kind == EdgeKind::Between).map(|edge| edge.ends.map(|v| mesh.vertices[v]));
+    let length: f64 = between.map(|[a, b]| distance(a, b)).sum();
+    assert!((length - 1.2).abs() < 1e-9, "{length}");
 }

@@ -82,7 +82,7 @@ def test_points_outside_are_named():
 @pytest.mark.parametrize(
     ("shape", "message"),
     [
-        ([(0, 0), (2, 2), (2, 0), (0, 2)], "cross"),
+        ([[(0, 0), (1, 0), (0, 1)], [(5, 5), (6, 5), (5, 6)]], "outside"),
         ([(0, 0), (1, 1), (2, 2)], "nothing|enclose"),
         ("nowhere.geojson", "nowhere"),
         ({"type": "Point", "coordinates": [0, 0]}, "a polygon is needed"),

@@ -38,6 +38,9 @@ pub struct Mesh {
     /// Lines inside that become edges: GeoJSON, WKT, SVG, or text with a blank line between them
     #[arg(long, value_name = "FILE", help_heading = "Constraints")]
     pub lines: Option<PathBuf>,
+    /// Parts that touch stay apart, as regions: features, polygons or shapes; where they overlap the first has the place
+    #[arg(long, help_heading = "Constraints")]
+    pub regions: bool,
     /// How far off flattened curves of an SVG may be, in its units [default: a thousandth of its size]
     #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Constraints")]
     pub curve_tolerance: Option<f64>,

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use anyhow::bail;
-use evenly::{Density, Mesh, MeshParams, MeshQuality, Outcome, Polygon, Report, RunContext, expected_triangles, mesh, mesh_quality};
+use evenly::{
+    Density, Error, Mesh, MeshParams, MeshQuality, MeshRegion, Outcome, Polygon, Report, RunContext, expected_triangles, mesh, mesh_quality,
+};
 use serde_json::Value;
 
 use crate::details;
@@ -25,12 +27,37 @@ const WELDED: f64 = 1e-6;
 /// A spacing for so many triangles is found in so many steps.
 const ESTIMATES: usize = 4;
 
+/// What files are called in what is said of them.
+#[derive(Clone, Copy)]
+pub struct Names<'a> {
+    /// The polygon's.
+    pub polygon: &'a Path,
+    /// That of points that become vertices.
+    pub fixed: &'a Path,
+    /// That of lines.
+    pub lines: &'a Path,
+}
+
+impl Names<'_> {
+    /// The error with the name of the file, or the flag, that is to blame.
+    fn told(&self, error: Error) -> anyhow::Error {
+        let name = match error {
+            Error::NotInside { what: "fixed point", .. } => self.fixed,
+            Error::NotInside { .. } => self.lines,
+            _ => self.polygon,
+        };
+        measured::told(error, name, &FLAGS)
+    }
+}
+
 /// What a mesh must keep or follow.
 pub struct Given {
     /// Points that become vertices.
     pub fixed: Vec<[f64; 2]>,
     /// Lines that become edges.
     pub lines: Vec<Vec<[f64; 2]>>,
+    /// Parts that are kept apart.
+    pub regions: Vec<MeshRegion>,
     /// Places and the wanted lengths of edges there.
     pub sizes: Option<Vec<[f64; 3]>>,
     /// How many vertices are wanted where, in proportion.
@@ -54,8 +81,8 @@ pub struct Meshed {
 /// Makes a mesh; of wishes in words see [`wishes`].
 ///
 /// # Errors
-/// As [`mesh`], with the names of flags; `name` is the polygon's.
-pub fn meshed(polygon: &Polygon, name: &Path, wishes: &MeshWishes, given: Given, run: &mut RunContext) -> anyhow::Result<Meshed> {
+/// As [`mesh`], with the names of files and flags.
+pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given, run: &mut RunContext) -> anyhow::Result<Meshed> {
     let method = wishes.mesh_method()?;
     if wishes.no_obtuse && wishes.method != Rule::PushPull {
         bail!("--no-obtuse needs --method push-pull");
@@ -68,7 +95,7 @@ pub fn meshed(polygon: &Polygon, name: &Path, wishes: &MeshWishes, given: Given,
     let mut notes = Vec::new();
     let mut own = polygon.clone();
     if let Some(tolerance) = wishes.simplify {
-        own = own.simplified(tolerance).map_err(|e| measured::told(e, name, &FLAGS))?;
+        own = own.simplified(tolerance).map_err(|e| names.told(e))?;
         notes.push(format!("simplified: {} corners instead of {}", corners(&own), corners(polygon)));
     }
     if spacing > 0.0 && spacing.is_finite() {
@@ -77,10 +104,10 @@ pub fn meshed(polygon: &Polygon, name: &Path, wishes: &MeshWishes, given: Given,
     notes.extend(own.repairs()[n_repairs..].iter().cloned());
     let polygon = &own;
     let growth = wishes.grade.unwrap_or(MeshParams::new(spacing).growth);
-    let Given { fixed, lines, sizes, density } = given;
+    let Given { fixed, lines, regions, sizes, density } = given;
     let sizes = Sizes::new(sizes, density, polygon, growth)?;
     let wanted = |spacing: f64| sizes.as_ref().map(|sizes| move |place: [f64; 2]| sizes.at(place, spacing));
-    let told = |e| measured::told(e, name, &FLAGS);
+    let told = |e| names.told(e);
     let params_of = |spacing: f64| MeshParams {
         growth,
         largest: match (wishes.grade, wishes.max_spacing) {
@@ -94,6 +121,7 @@ pub fn meshed(polygon: &Polygon, name: &Path, wishes: &MeshWishes, given: Given,
         min_angle_deg: wishes.min_angle,
         fixed: fixed.clone(),
         lines: lines.clone(),
+        regions: regions.clone(),
         seed: wishes.seed,
         ..MeshParams::new(spacing)
     };

@@ -32,5 +32,5 @@ pub use output::{write_figure, write_points};
 pub use photograph::{Photograph, Tone, luma};
 pub use render::rendered;
 pub use scraps::Scraps;
-pub use shapes::{read_lines, read_polygon};
+pub use shapes::{read_lines, read_polygon, read_regions};
 pub use surfaces::{TrianglesRead, read_triangles, read_triangles_or_points, triangles_svg, write_triangles, write_triangles_figure};

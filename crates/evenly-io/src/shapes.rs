@@ -1,5 +1,6 @@
 //! Polygons and lines from files: GeoJSON, WKT, SVG, and plain rings as text. Units are kept.
 
+mod geographic;
 mod geojson;
 mod rings;
 mod svg;
@@ -20,9 +21,15 @@ type Points = Vec<[f64; 2]>;
 struct Shapes {
     /// Parts of which the first ring is the outer one.
     parts: Vec<Vec<Points>>,
+    /// The names of parts, where they have any: one for each.
+    names: Vec<String>,
     /// What is filled, where parts are not told apart.
     filled: Vec<Shape>,
     lines: Vec<Points>,
+    /// Whether rings have come as text, where each may be anything.
+    is_plain: bool,
+    /// Whether coordinates are longitudes and latitudes, as those of GeoJSON are.
+    is_geographic: bool,
 }
 
 /// Reads a polygon. What is in the file tells the format: GeoJSON or WKT (all polygons together),
@@ -35,12 +42,41 @@ struct Shapes {
 /// [`Error::Content`] with the file's name, and what is wrong with it or with the polygon.
 pub fn read_polygon(path: &Path, tolerance: Option<f64>) -> Result<Polygon, Error> {
     let (name, shapes) = read(path, tolerance)?;
+    let is_geographic = shapes.is_geographic;
     let polygon = match shapes {
         Shapes { parts, .. } if !parts.is_empty() => Polygon::new(parts),
         Shapes { filled, .. } if filled.iter().any(|shape| !shape.rings.is_empty()) => Polygon::of_shapes(&filled),
         _ => return Err(Error::content(name, "there is no polygon in it")),
     };
-    polygon.map_err(|e| Error::content(name, e.to_string()))
+    let polygon = polygon.map_err(|e| Error::content(name, e.to_string()))?;
+    Ok(if is_geographic { geographic::noted(polygon) } else { polygon })
+}
+
+/// Reads a polygon as [`read_polygon`], and its parts, each by its name: features of GeoJSON, polygons of WKT,
+/// shapes of SVG, rings of text.
+///
+/// # Errors
+/// As [`read_polygon`].
+pub fn read_regions(path: &Path, tolerance: Option<f64>) -> Result<(Polygon, Vec<(String, Polygon)>), Error> {
+    let whole = read_polygon(path, tolerance)?;
+    let (name, Shapes { parts, names, filled, is_plain, .. }) = read(path, tolerance)?;
+    let told = |e: evenly::Error| Error::content(name.clone(), e.to_string());
+    let mut regions: Vec<(String, Vec<Shape>)> = Vec::new();
+    let shape = |rings: Vec<Points>| Shape { rings, ..Shape::default() };
+    let separate: Vec<Shape> = match () {
+        () if !parts.is_empty() => parts.into_iter().map(shape).collect(),
+        () if is_plain => filled.into_iter().flat_map(|whole| whole.rings).map(|ring| shape(vec![ring])).collect(),
+        () => filled,
+    };
+    for (k, part) in separate.into_iter().enumerate() {
+        let name = names.get(k).cloned().unwrap_or_else(|| format!("region {}", k + 1));
+        match regions.last_mut() {
+            Some((last, all)) if k > 0 && names.get(k).is_some() && *last == name => all.push(part),
+            _ => regions.push((name, vec![part])),
+        }
+    }
+    let regions = regions.into_iter().map(|(name, shapes)| Ok((name, Polygon::of_shapes(&shapes).map_err(told)?)));
+    Ok((whole, regions.collect::<Result<_, Error>>()?))
 }
 
 /// Reads lines, in the same formats: polygons give their rings, and text a line for each block

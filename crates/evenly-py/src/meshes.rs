@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use evenly::{EdgeKind, Mesh, MeshEdge, Polygon};
-use evenly_cli::meshed::{Given, meshed, wishes};
+use evenly_cli::meshed::{Given, Names, meshed, wishes};
 use evenly_io::{MeshFormat, Target};
 use pyo3::prelude::*;
 
@@ -30,11 +30,13 @@ pub fn mesh(
     let given = Given {
         fixed: rows(&fixed)?,
         lines: lines.iter().map(rows).collect::<PyResult<_>>()?,
+        regions: Vec::new(),
         sizes: sizes.as_ref().map(rows).transpose()?,
         density: wanted.map(|wanted| density(py, Some(wanted))).transpose()?,
     };
     run(py, Terms { threads, callback }, move |context, _| {
-        let made = meshed(&polygon, "the polygon".as_ref(), &wishes(&words)?, given, context)?;
+        let names = Names { polygon: "the polygon".as_ref(), fixed: "fixed".as_ref(), lines: "lines".as_ref() };
+        let made = meshed(&polygon, names, &wishes(&words)?, given, context)?;
         let unmet: Vec<String> = made.unmet.iter().map(ToString::to_string).collect();
         let said = json(&serde_json::json!({ "quality": made.quality, "run": made.report, "notes": made.report.notes, "unmet": unmet }))?;
         let Mesh { vertices, triangles, edges, sizes, .. } = made.mesh;
@@ -53,6 +55,7 @@ fn tag(edge: &MeshEdge) -> i64 {
     match edge.kind {
         EdgeKind::Border { segment } => segment as i64,
         EdgeKind::Line { line } => -1 - line as i64,
+        EdgeKind::Between => i64::MIN,
     }
 }
 
@@ -64,7 +67,7 @@ fn whole(vertices: &Rows, triangles: &Integers, edges: &Integers, tags: Vec<i64>
     };
     let ends = indices(edges)?;
     let edges = ends.into_iter().zip(tags).map(|(ends, tag)| MeshEdge { ends, kind: kind(tag) }).collect();
-    Ok(Mesh { vertices: rows(vertices)?, triangles: indices(triangles)?, edges, sizes, n_in_corners: 0 })
+    Ok(Mesh { vertices: rows(vertices)?, triangles: indices(triangles)?, edges, sizes, ..Mesh::default() })
 }
 
 /// Writes a mesh, whose format the path tells.

@@ -65,6 +65,14 @@ pub enum Error {
         /// Where, in input units.
         at: [f64; 2],
     },
+    /// What was to be kept in a mesh, and lies outside.
+    #[error("the polygon does not hold the {what} ({}, {})", at[0], at[1])]
+    NotInside {
+        /// A fixed point, or lines.
+        what: &'static str,
+        /// Where, in input units.
+        at: [f64; 2],
+    },
     /// Triangles that make no surface, or leave in doubt which.
     #[error("{0}")]
     InvalidMesh(String),

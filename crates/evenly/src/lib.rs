@@ -43,7 +43,9 @@ pub use measure::{
     BorderMeasures, Measures, PointMeasures, PowerSpectrum, RadialSpectrum, SizeErrors, Tessellation, differential_spectrum,
     local_spacings, measure, measure_each, power_spectrum, radial_spectrum, tessellate,
 };
-pub use mesh::{EdgeKind, Mesh, MeshEdge, MeshMethod, MeshParams, MeshQuality, expected_triangles, mesh, mesh_cells, mesh_quality};
+pub use mesh::{
+    EdgeKind, Mesh, MeshEdge, MeshMethod, MeshParams, MeshQuality, MeshRegion, expected_triangles, mesh, mesh_cells, mesh_quality,
+};
 pub use optimize::{
     CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Mode, OptBetaParams, ProcrustesParams, PushPullParams,
     PushPullPreset, Targets, UnmetTarget, WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh, farthest_point, lloyd, opt_beta,

@@ -3,13 +3,13 @@
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, MeshQuality, Report, RunContext, mesh_cells};
-use evenly_io::{MeshFormat, Target, read_lines, read_polygon, read_positions, read_rows, write_mesh, write_polygons};
+use evenly::{CancelToken, MeshQuality, MeshRegion, Report, RunContext, mesh_cells};
+use evenly_io::{MeshFormat, Target, read_lines, read_polygon, read_positions, read_regions, read_rows, write_mesh, write_polygons};
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::mesh_args::Mesh;
-use crate::meshed::{Given, Meshed, meshed};
+use crate::meshed::{Given, Meshed, Names, meshed};
 use crate::talk::say;
 use crate::unmet::Unmet;
 use crate::{input, interrupt, record, session};
@@ -27,21 +27,31 @@ pub fn run(args: &Mesh) -> anyhow::Result<u8> {
         bail!("--curve-tolerance is {tolerance}; it must be positive and finite");
     }
     let pool = session::pool(args.run.threads)?;
-    let polygon = read_polygon(&args.input, args.curve_tolerance)?;
+    if args.regions && wishes.simplify.is_some() {
+        bail!("--simplify would part regions that touch; simplify them before, or leave out --regions");
+    }
+    let (polygon, regions) = match args.regions {
+        true => read_regions(&args.input, args.curve_tolerance)?,
+        false => (read_polygon(&args.input, args.curve_tolerance)?, Vec::new()),
+    };
     let mut notes: Vec<String> = polygon.repairs().to_vec();
     let given = Given {
         fixed: args.fixed.as_deref().map(read_positions).transpose()?.unwrap_or_default(),
         lines: args.lines.as_deref().map(read_lines).transpose()?.unwrap_or_default(),
+        regions: regions.into_iter().map(|(name, polygon)| MeshRegion { name, polygon }).collect(),
         sizes: args.sizes.as_deref().map(read_rows).transpose()?,
         density: wishes.density.is_given().then(|| wishes.density.density()).transpose()?,
     };
 
+    let nameless = std::path::PathBuf::new();
+    let names =
+        Names { polygon: &args.input, fixed: args.fixed.as_ref().unwrap_or(&nameless), lines: args.lines.as_ref().unwrap_or(&nameless) };
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet)?;
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
-        meshed(&polygon, &args.input, wishes, given, &mut context)
+        meshed(&polygon, names, wishes, given, &mut context)
     });
     bar.finish_and_clear();
     let Meshed { mesh, quality, report, unmet: missed, parameters } = made?;

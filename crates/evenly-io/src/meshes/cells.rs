@@ -5,16 +5,21 @@ use std::borrow::Cow;
 use evenly::{Attribute, EdgeKind, Mesh, TriangleMesh};
 
 /// Names that an attribute may not take, since files have them already.
-const TAKEN: [&str; 7] = ["x", "y", "z", "vertices", "triangles", "edges", "edge_tags"];
+const TAKEN: [&str; 8] = ["x", "y", "z", "vertices", "triangles", "edges", "edge_tags", "regions"];
 
 /// Vertices, triangles, edges, and what vertices carry along.
 pub(crate) struct Cells<'a> {
     pub vertices: Cow<'a, [[f64; 3]]>,
     pub triangles: &'a [[usize; 3]],
-    /// Edges of the border and of lines, after their tags: of the border 1 and up, of lines after that.
+    /// Edges of the border, of lines and between regions, after their tags: of the border 1 and up, of lines
+    /// after that, and one for all between regions.
     pub edges: Vec<(usize, [usize; 2])>,
-    /// The last tag of the border.
+    /// The last tag of the border, and that of edges between regions.
     pub n_segments: usize,
+    pub between: usize,
+    /// The region of each triangle, where there are any, and their names.
+    pub regions: &'a [u32],
+    pub region_names: &'a [String],
     /// Names that every format can take, and a value a vertex.
     pub attributes: Vec<(String, &'a [f64])>,
 }
@@ -23,18 +28,25 @@ impl<'a> From<&'a Mesh> for Cells<'a> {
     fn from(mesh: &'a Mesh) -> Self {
         let segments = mesh.edges.iter().filter_map(|edge| match edge.kind {
             EdgeKind::Border { segment } => Some(segment + 1),
-            EdgeKind::Line { .. } => None,
+            EdgeKind::Line { .. } | EdgeKind::Between => None,
         });
+        let lines = mesh.edges.iter().filter_map(|edge| if let EdgeKind::Line { line } = edge.kind { Some(line + 1) } else { None });
+        let n_lines = lines.max().unwrap_or(0);
         let n_segments = segments.max().unwrap_or(0);
+        let between = n_segments + n_lines + 1;
         let tag = |kind| match kind {
             EdgeKind::Border { segment } => segment + 1,
             EdgeKind::Line { line } => n_segments + line + 1,
+            EdgeKind::Between => between,
         };
         Self {
             vertices: mesh.vertices.iter().map(|&[x, y]| [x, y, 0.0]).collect(),
             triangles: &mesh.triangles,
             edges: mesh.edges.iter().map(|edge| (tag(edge.kind), edge.ends)).collect(),
             n_segments,
+            between,
+            regions: &mesh.regions,
+            region_names: &mesh.region_names,
             attributes: if mesh.sizes.is_empty() { Vec::new() } else { vec![("edge_length".into(), &mesh.sizes[..])] },
         }
     }
@@ -47,6 +59,9 @@ impl<'a> From<&'a TriangleMesh> for Cells<'a> {
             triangles: &mesh.triangles,
             edges: Vec::new(),
             n_segments: 0,
+            between: 1,
+            regions: &[],
+            region_names: &[],
             attributes: named(&mesh.attributes),
         }
     }

@@ -6,7 +6,7 @@ use super::cells::Cells;
 use super::plain::{push_position, push_row};
 use crate::text::Shortest;
 
-/// Triangles, and after them the edges of the border and of lines; the cell array `tag` tells which.
+/// Triangles, and after them the edges of the border and of lines; the cell array `tag` tells which, and `region` in which region triangles lie, -1 for none.
 pub(super) fn vtu(cells: &Cells, recipe: &str) -> String {
     let (n, n_triangles, n_edges) = (cells.vertices.len(), cells.triangles.len(), cells.edges.len());
     let comment = recipe.replace("--", "- -");
@@ -47,7 +47,16 @@ pub(super) fn vtu(cells: &Cells, recipe: &str) -> String {
         text.push_str("<CellData Scalars=\"tag\">\n<DataArray type=\"Int64\" Name=\"tag\" format=\"ascii\">\n");
         text.push_str(&"0\n".repeat(n_triangles));
         cells.edges.iter().for_each(|&(tag, _)| push_row(&mut text, "", [tag]));
-        text.push_str("</DataArray>\n</CellData>\n");
+        text.push_str("</DataArray>\n");
+        if !cells.regions.is_empty() {
+            text.push_str("<DataArray type=\"Int64\" Name=\"region\" format=\"ascii\">\n");
+            for &region in cells.regions {
+                let _ = writeln!(text, "{}", region as i32);
+            }
+            text.push_str(&"-1\n".repeat(n_edges));
+            text.push_str("</DataArray>\n");
+        }
+        text.push_str("</CellData>\n");
     }
     text.push_str("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     text

@@ -1,21 +1,40 @@
 //! GeoJSON (RFC 7946): geometries, features and collections of them. All polygons count together; properties do not.
 
-use geojson::{GeoJson, GeometryValue, Position};
+use geojson::{Feature, GeoJson, GeometryValue, Position};
 
 use super::{Points, Shapes};
 
 pub(super) fn read(text: &str) -> Result<Shapes, String> {
     let document: GeoJson = text.parse().map_err(|e: geojson::Error| format!("this is no GeoJSON: {e}"))?;
-    let mut shapes = Shapes::default();
+    let others = match &document {
+        GeoJson::Geometry(geometry) => &geometry.foreign_members,
+        GeoJson::Feature(feature) => &feature.foreign_members,
+        GeoJson::FeatureCollection(collection) => &collection.foreign_members,
+    };
+    // Older files name another reference system.
+    let is_geographic = !others.as_ref().is_some_and(|members| members.contains_key("crs"));
+    let mut shapes = Shapes { is_geographic, ..Shapes::default() };
     match document {
         GeoJson::Geometry(geometry) => add(&mut shapes, &geometry.value)?,
-        GeoJson::Feature(feature) => feature.geometry.iter().try_for_each(|geometry| add(&mut shapes, &geometry.value))?,
+        GeoJson::Feature(feature) => add_feature(&mut shapes, &feature, 1)?,
         GeoJson::FeatureCollection(collection) => {
-            let geometries = collection.features.iter().filter_map(|feature| feature.geometry.as_ref());
-            { geometries }.try_for_each(|geometry| add(&mut shapes, &geometry.value))?;
+            (1..).zip(&collection.features).try_for_each(|(number, feature)| add_feature(&mut shapes, feature, number))?;
         }
     }
     Ok(shapes)
+}
+
+/// Adds a feature's geometry, and its name for each part.
+fn add_feature(shapes: &mut Shapes, feature: &Feature, number: usize) -> Result<(), String> {
+    let Some(geometry) = &feature.geometry else { return Ok(()) };
+    add(shapes, &geometry.value)?;
+    let called = ["name", "NAME", "Name", "id", "ID"].iter().find_map(|key| feature.property(key)).map(|value| match value {
+        serde_json::Value::String(name) => name.clone(),
+        other => other.to_string(),
+    });
+    let name = called.filter(|name| !name.is_empty()).unwrap_or_else(|| format!("region {number}"));
+    shapes.names.resize(shapes.parts.len(), name);
+    Ok(())
 }
 
 fn add(shapes: &mut Shapes, geometry: &GeometryValue) -> Result<(), String> {

@@ -19,5 +19,5 @@ pub(super) fn read(name: &str, text: &str) -> Result<Shapes, Error> {
     rings.retain(|ring| !ring.is_empty());
     // Blocks of text may be either.
     let filled = vec![Shape { rings: rings.clone(), ..Shape::default() }];
-    Ok(Shapes { filled, lines: rings, ..Shapes::default() })
+    Ok(Shapes { filled, lines: rings, is_plain: true, ..Shapes::default() })
 }

@@ -13,7 +13,7 @@ Answer = TypeVar("Answer")
 Result = TypeVar("Result")
 
 _MOST_THREADS = 1024
-_FLAGS = {"no_warp", "local", "no_obtuse", "invert", "repair"}
+_FLAGS = {"no_warp", "visible", "local", "no_obtuse", "invert", "repair"}
 _NEEDED = {"method", "layers", "sizes", "order"}
 _CHOICES = _NEEDED | {"start", "preset", "mode", "schedule", "density"}
 _TARGETS = {"min_distance", "coverage_radius", "capacity_tolerance", "features", "tolerance"}

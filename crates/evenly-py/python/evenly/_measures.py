@@ -241,13 +241,13 @@ def power_spectrum(
     >>> bool(spectrum.ring_power[spectrum.ring_frequencies < 0.5].max() < 0.2)
     True
     """
-    sets, where = _sets(points, space, size, origin)
+    sets, where, metric = _sets(points, space, size, origin)
 
     def build(answer: tuple[Floats, tuple[int, int], Pair, Floats, Floats, Floats]) -> PowerSpectrum:
         power, (width, height), step, frequencies, means, anisotropy = answer
         return PowerSpectrum(frozen(power.reshape(height, width)), (step[0], step[1]), frozen(frequencies), frozen(means), frozen(anisotropy))
 
-    return run(lambda: _evenly.power_spectrum(sets, where, float(max_frequency), threads_of(threads)), build)
+    return run(lambda: _evenly.power_spectrum(sets, native(where, metric), float(max_frequency), threads_of(threads)), build)
 
 
 def radial_power(
@@ -285,13 +285,13 @@ def radial_power(
     >>> evenly.radial_power(evenly.generate(1000, method="push-pull")).effective_nyquist > 0.6
     True
     """
-    sets, where = _sets(points, space, size, origin)
+    sets, where, metric = _sets(points, space, size, origin)
 
     def build(answer: tuple[Floats, Floats, Floats, Floats, float, float]) -> RadialPower:
         frequencies, power, _, _, effective_nyquist, oscillation = answer
         return RadialPower(frozen(frequencies), frozen(power), effective_nyquist, oscillation)
 
-    return run(lambda: _evenly.radial_spectrum(sets, where, threads_of(threads)), build)
+    return run(lambda: _evenly.radial_spectrum(sets, native(where, metric), threads_of(threads)), build)
 
 
 def pair_correlation(
@@ -326,12 +326,12 @@ def pair_correlation(
     >>> bool(pairs.correlation[pairs.distances < 0.8].max() == 0.0)
     True
     """
-    sets, where = _sets(points, space, size, origin)
+    sets, where, metric = _sets(points, space, size, origin)
 
     def build(answer: tuple[Floats, Floats, Floats, Floats, float, float]) -> PairCorrelation:
         return PairCorrelation(frozen(answer[2]), frozen(answer[3]))
 
-    return run(lambda: _evenly.radial_spectrum(sets, where, threads_of(threads)), build)
+    return run(lambda: _evenly.radial_spectrum(sets, native(where, metric), threads_of(threads)), build)
 
 
 def _space(points: object, space: object, size: Pair | None, origin: Pair | None) -> Space:
@@ -342,13 +342,13 @@ def _metric(points: object) -> Metric:
     return points.metric if isinstance(points, _KnowsSpace) else "input"
 
 
-def _sets(points: Any, space: object, size: Pair | None, origin: Pair | None) -> tuple[list[Floats], Any]:
+def _sets(points: Any, space: object, size: Pair | None, origin: Pair | None) -> tuple[list[Floats], Space, Metric]:
     is_several = isinstance(points, (list, tuple)) and len(points) > 0 and np.ndim(points[0]) == 2
     sets = list(points) if is_several else [points]
     spaces = {(each.space, each.metric) for each in sets if isinstance(each, _KnowsSpace)}
     if space is None and len(spaces) > 1:
         raise ValueError("the sets have different spaces")
-    return [rows(each) for each in sets], native(_space(sets[0], space, size, origin), _metric(sets[0]))
+    return [rows(each) for each in sets], _space(sets[0], space, size, origin), _metric(sets[0])
 
 
 def _measures(text: str) -> Measures:

@@ -111,6 +111,7 @@ def mesh(
     *,
     spacing: float | None = None,
     n_triangles: int | None = None,
+    simplify: float | None = None,
     seed: Seed = 0,
     method: Literal["push-pull", "opt-beta", "lloyd", "distmesh"] = "push-pull",
     iterations: int | None = None,
@@ -135,6 +136,8 @@ def mesh(
         The wanted length of edges, in input units; shorter where the border is detailed or the domain narrow. This or `n_triangles`.
     n_triangles : int, optional
         About how many triangles, instead.
+    simplify : float, optional
+        Fewer corners first: no place of the border goes farther than this, in input units. `Mesh.tags` then count the segments of the simpler polygon.
     seed : int, SeedSequence, Generator or None
         As in `generate`.
     method : str
@@ -150,13 +153,13 @@ def mesh(
     density : optional
         How many vertices are wanted where, in the polygon's frame; see `generate`.
     min_angle : float, optional
-        No angle shall be smaller, in degrees, but at sharper corners of the polygon.
+        No angle shall be smaller, in degrees, but in sharper corners of the polygon; 25 by default.
     no_obtuse : bool
         No triangle shall be obtuse.
     fixed : array_like of shape (k, 2), optional
         Points that become vertices.
     lines : sequence of array_like of shape (k, 2), optional
-        Lines inside that become edges; they are no slits: triangles on both sides share their vertices.
+        Lines that become edges, split where they cross and clipped at the border; they are no slits: triangles on both sides share their vertices.
     threads, callback
         As in `generate`.
 
@@ -188,6 +191,7 @@ def mesh(
         {
             "spacing": spacing,
             "n_triangles": n_triangles,
+            "simplify": simplify,
             "seed": chance,
             "method": method,
             "iterations": iterations,

@@ -114,15 +114,15 @@ def report(
     origin: Pair | None = None,
 ) -> "np.ndarray[Any, np.dtype[np.object_]]":
     """Draw a page of points, triangulation, spectrum and radial mean; returns its four axes."""
-    sets, where = _sets(points, space, size, origin)
+    sets, where, _ = _sets(points, space, size, origin)
     if isinstance(where, Polygon):
         raise ValueError("a polygon has no spectrum, so there is no report")
     _, grid = plt.subplots(2, 2, figsize=(10, 10), layout="constrained")
     axes = cast("np.ndarray[Any, np.dtype[np.object_]]", grid)
     _points_of(sets[0], axes[0, 0], where)
     triangulation(sets[0], ax=axes[0, 1], space=where)
-    spectrum(sets, ax=axes[1, 0], space=where)
-    radial(sets, ax=axes[1, 1], space=where)
+    spectrum(points, ax=axes[1, 0], space=where)
+    radial(points, ax=axes[1, 1], space=where)
     return axes
 
 

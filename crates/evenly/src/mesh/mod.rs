@@ -10,6 +10,7 @@
 //! below 25 degrees but at sharper corners, and where the domain is thinner than a five-hundredth of the spacing.
 
 mod aim;
+mod arrangement;
 mod background;
 mod border;
 mod caps;
@@ -20,6 +21,7 @@ mod mover;
 mod outline;
 mod polish;
 mod quality;
+mod regions;
 mod repair;
 mod scatter;
 mod settle;
@@ -36,6 +38,7 @@ pub use self::method::MeshMethod;
 use self::mover::Mover;
 use self::outline::Outline;
 pub use self::quality::{MeshQuality, mesh_quality};
+pub use self::regions::MeshRegion;
 use self::scatter::{least_mass, scatter, total_mass};
 use self::settle::{Place, settle};
 use self::state::State;
@@ -74,8 +77,10 @@ pub struct MeshParams<'a> {
     pub min_angle_deg: Option<f64>,
     /// Points that stay and become vertices, in input units.
     pub fixed: Vec<[f64; 2]>,
-    /// Lines inside that become edges, each from point to point, in input units.
+    /// Lines that become edges, each from point to point, in input units; they are split where they cross, and clipped at the border.
     pub lines: Vec<Vec<[f64; 2]>>,
+    /// Parts of the domain that are kept apart.
+    pub regions: Vec<MeshRegion>,
     /// A spacing for each place, both in input units, where it is to be less than `spacing` or `largest`.
     #[serde(skip)]
     pub wanted: Option<&'a (dyn Fn([f64; 2]) -> f64 + Sync)>,
@@ -95,6 +100,7 @@ impl MeshParams<'_> {
             min_angle_deg: None,
             fixed: Vec::new(),
             lines: Vec::new(),
+            regions: Vec::new(),
             wanted: None,
             seed: 0,
         }
@@ -157,6 +163,10 @@ pub struct Mesh {
     pub edges: Vec<MeshEdge>,
     /// The length of edges that is wanted at each vertex, in input units: what was asked for, and less where the border is detailed. Empty where nobody knows.
     pub sizes: Vec<f64>,
+    /// The region in which each triangle lies, as [`MeshParams::regions`] has them; `u32::MAX` for none. Empty where there are none.
+    pub regions: Vec<u32>,
+    /// Their names.
+    pub region_names: Vec<String>,
     /// So many triangles, the last ones, lie in corners of the polygon that are sharper than 60 degrees:
     /// there its border forces the angles.
     pub n_in_corners: usize,
@@ -191,6 +201,8 @@ pub enum EdgeKind {
         /// Which.
         line: usize,
     },
+    /// What lies between two regions, or around one inside of another.
+    Between,
 }
 
 /// Meshes a polygon.
@@ -199,7 +211,7 @@ pub enum EdgeKind {
 /// polygon's own sharp corners; [`mesh_quality`] tells more.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] as [`MeshParams::validate`] has it; [`Error::InvalidPolygon`] where a fixed point or a line lies outside or crosses the border; [`Error::TooManyPoints`] where the
+/// [`Error::InvalidParameter`] as [`MeshParams::validate`] has it; [`Error::NotInside`] where a fixed point, or all of all lines, lies outside; [`Error::TooManyPoints`] where the
 /// spacing asks for more than [`MAX_POINTS`]; [`Error::Degenerate`] where the border is finer than f64 can tell.
 ///
 /// # Example
@@ -255,13 +267,15 @@ fn meshed(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Resul
     // 4. They find their places.
     run.enter(Phase::Optimize);
     let mut report = Report::new("mesh", 0);
+    report.notes.clone_from(&outline.notes);
     let place = Place { domain: &domain, outline: &outline, spacing };
     let mover = Mover { method: &params.method, is_non_obtuse: params.is_non_obtuse, seed: params.seed };
     let settled = settle(state, place, &mover, run, &mut report)?;
 
     // 5. What is left is refined, and the corners come back.
     let least_deg = if report.outcome == Outcome::Cancelled { 0.0 } else { finish::refined_deg(params.min_angle_deg) };
-    let (mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, least_deg, [FINEST * spacing, 0.5 * floor]);
+    let (mut mesh, n_added) = finish::finish(settled, &outline, &caps, &domain, least_deg, [FINEST * spacing, 0.5 * floor]);
+    regions::mark(&mut mesh, &params.regions, params.lines.len());
     report.n_points = mesh.vertices.len();
     if n_added > 0 {
         report.notes.push(format!("{n_added} points were added at the end, where triangles were thin"));
@@ -304,7 +318,7 @@ fn graded(polygon: &Polygon, params: &MeshParams) -> Result<Graded, Error> {
     let wanted = wanted.as_ref().map(|wanted| wanted as &(dyn Fn(DVec2) -> f64 + Sync));
     let grading = params.grading(&domain, Space::from(*polygon.frame()).resolution(), wanted);
     require_few(polygon.area() / (unit * grading.largest).powi(2))?;
-    let whole = Outline::new(polygon, &params.fixed, &params.lines)?;
+    let whole = Outline::new(polygon, &params.fixed, &params.lines, &params.regions)?;
     let (outline, caps, background) = capped(&whole, &domain, &grading)?;
     Ok(Graded { outline, caps, background, floor: grading.floor })
 }

@@ -4,15 +4,19 @@ use std::collections::HashSet;
 
 use glam::DVec2;
 
+use super::MeshRegion;
+use super::arrangement::{ON_BORDER, Places, arranged, within};
 use crate::error::Error;
-use crate::polygon::{Polygon, meetings};
-use crate::space::{Domain, GRID};
+use crate::polygon::Polygon;
+use crate::space::{Domain, GRID, snap};
 use crate::triangulation::{Crossing, Graph, Planar, planar};
 
-/// Points this near to a segment or another point, in normalised units, count as on it.
-const ON_BORDER: f64 = 1e-9;
 /// The shortest spacing, in normalised units.
 pub(super) const LEAST: f64 = 1e3 * GRID;
+/// How far outside of the frame lines are looked at, in normalised units.
+const MARGIN: f64 = 0.01;
+/// Where segments cross they are split; rounding then moves them, so that they may cross anew.
+const MOST_SPLITS: usize = 8;
 
 /// Points, and segments between them; of the border with the inside on their left.
 #[derive(Debug, Clone)]
@@ -21,6 +25,8 @@ pub(super) struct Outline {
     /// The points as they were given; those that come later have none.
     pub given: Vec<[f64; 2]>,
     pub segments: Vec<Segment>,
+    /// What was done to lines, in plain words.
+    pub notes: Vec<String>,
 }
 
 /// From one point to another.
@@ -42,83 +48,125 @@ pub(super) enum Of {
 }
 
 impl Outline {
-    /// The polygon's border, with points that stay and lines that become edges, all in input units.
+    /// The polygon's border, with points that stay and lines that become edges, all in input units. Lines
+    /// are split where they cross, and clipped at the border. The regions' outlines are lines, too, and
+    /// have the numbers after the others'.
     ///
     /// # Errors
-    /// [`Error::InvalidPolygon`] where a point lies outside, or a line crosses the border or another.
-    pub fn new(polygon: &Polygon, fixed: &[[f64; 2]], lines: &[Vec<[f64; 2]>]) -> Result<Self, Error> {
+    /// [`Error::NotInside`] where a point, or all of all lines, lies outside.
+    pub fn new(polygon: &Polygon, fixed: &[[f64; 2]], lines: &[Vec<[f64; 2]>], regions: &[MeshRegion]) -> Result<Self, Error> {
         let domain = polygon.domain();
-        let segments = (0..).zip(polygon.border()).map(|(number, &ends)| Segment { ends, of: Of::Border(number) });
-        let mut outline = Self { points: polygon.corners().to_vec(), given: polygon.given().to_vec(), segments: segments.collect() };
+        let border = (0..).zip(polygon.border()).map(|(number, &ends)| Segment { ends, of: Of::Border(number) });
+        let mut segments: Vec<Segment> = border.collect();
+        let mut places = Places::new(polygon.corners());
+        let mut given = polygon.given().to_vec();
+        let mut number = |at: DVec2, input: [f64; 2]| {
+            let v = places.number(at + 0.0);
+            if v as usize == given.len() {
+                given.push(input);
+            }
+            v
+        };
+
+        // All points, and segments between them.
+        let mut stay = Vec::new();
         for &point in fixed {
-            outline.add(&domain, point)?;
+            let at = domain.normalize(point);
+            let unit = domain.restore_length(1.0);
+            if !point.iter().zip(domain.restore(at)).all(|(x, back)| (x - back).abs() <= ON_BORDER * unit) {
+                return Err(Error::NotInside { what: "fixed point", at: point });
+            }
+            stay.push(number(at, point));
         }
-        for (number, line) in (0..).zip(lines) {
-            let ends = line.iter().map(|&point| outline.add(&domain, point)).collect::<Result<Vec<u32>, Error>>()?;
-            for pair in ends.windows(2) {
-                outline.add_line([pair[0], pair[1]], number);
+        let (low, high) = (DVec2::splat(-MARGIN), domain.size + MARGIN);
+        let outlines = (lines.len() as u32..)
+            .zip(regions)
+            .flat_map(|(line, region)| region.polygon.rings().iter().map(move |ring| (line, closed(ring))));
+        let all = (0..).zip(lines.iter().cloned()).chain(outlines);
+        let mut is_cut = false;
+        for (line, points) in all {
+            for pair in points.windows(2) {
+                let ends = [pair[0], pair[1]].map(|p| (p, domain.place(p)));
+                let Some(part) = within(ends.map(|(_, at)| at), low, high) else {
+                    is_cut = true;
+                    continue;
+                };
+                let is_given = |at: DVec2| ends.iter().find(|(_, end)| *end == at).map(|&(p, _)| p);
+                let ends = part.map(|at| number(snap(at), is_given(at).unwrap_or_else(|| domain.restore(at))));
+                if ends[0] != ends[1] {
+                    segments.push(Segment { ends, of: Of::Line(line) });
+                }
             }
         }
-        // Where a line runs along the border or another, it is there already.
-        let mut seen = HashSet::new();
-        outline.segments.retain(|segment| {
-            let [a, b] = segment.ends;
-            seen.insert([a.min(b), a.max(b)])
-        });
-        let planar = outline.triangulated(&domain)?;
+
+        // Pieces that do not cross.
+        let mut outline = Self { points: Vec::new(), given, segments, notes: Vec::new() };
+        let mut n_splits = 0;
+        let planar = loop {
+            outline.segments = arranged(&mut places, &outline.segments);
+            outline.points.clone_from(&places.points);
+            n_splits += 1;
+            match outline.triangulated(&domain) {
+                Err(_) if n_splits < MOST_SPLITS => {}
+                found => break found?,
+            }
+        };
+        let restored = outline.points[outline.given.len()..].iter().map(|&at| domain.restore(at));
+        outline.given.extend(restored.collect::<Vec<_>>());
+
+        // Those inside.
         let mut is_inside = vec![false; outline.points.len()];
         planar.source.iter().for_each(|&point| is_inside[point as usize] = true);
+        if let Some(&outside) = stay.iter().find(|&&v| !is_inside[v as usize]) {
+            return Err(Error::NotInside { what: "fixed point", at: outline.given[outside as usize] });
+        }
+        outline.keep_lines_inside(&planar, lines, is_cut)?;
+        outline.keep_points(&stay);
+        Ok(outline)
+    }
+
+    /// Leaves out what of lines lies outside, and says so, as where some of it has gone before.
+    fn keep_lines_inside(&mut self, planar: &Planar, lines: &[Vec<[f64; 2]>], is_cut: bool) -> Result<(), Error> {
         let sorted = |ends: [u32; 2]| [ends[0].min(ends[1]), ends[0].max(ends[1])];
         let kept: HashSet<[u32; 2]> = planar.lines.iter().map(|ends| sorted(ends.map(|v| planar.source[v as usize]))).collect();
-        let is_lost = |segment: &&Segment| matches!(segment.of, Of::Line(_)) && !kept.contains(&sorted(segment.ends));
-        let lost_line = outline.segments.iter().find(is_lost).map(|segment| segment.ends[0] as usize);
-        match is_inside.iter().position(|&is| !is).or(lost_line) {
-            Some(outside) => Err(does_not_hold(outline.given[outside])),
-            None => Ok(outline),
+        let n = self.segments.iter().filter(|segment| matches!(segment.of, Of::Line(line) if (line as usize) < lines.len())).count();
+        self.segments.retain(|segment| !matches!(segment.of, Of::Line(_)) || kept.contains(&sorted(segment.ends)));
+        if lines.is_empty() {
+            return Ok(());
         }
+        let is_there = |line: usize| self.segments.iter().any(|segment| segment.of == Of::Line(line as u32));
+        let is_line = |segment: &Segment| matches!(segment.of, Of::Line(line) if (line as usize) < lines.len());
+        let has_lines = self.segments.iter().any(is_line);
+        if !is_cut && self.segments.iter().filter(|segment| is_line(segment)).count() == n {
+            return Ok(());
+        }
+        let at = lines.iter().flatten().next().copied();
+        if let (false, Some(at)) = (has_lines, at) {
+            return Err(Error::NotInside { what: "lines, that from", at });
+        }
+        let n_outside = (0..lines.len()).filter(|&line| !is_there(line)).count();
+        self.notes.push(match n_outside {
+            0 => "lines reach outside of the polygon: clipped at its border".into(),
+            n => format!("{n} of {} lines lie outside of the polygon, or on its border: left out; others are clipped there", lines.len()),
+        });
+        Ok(())
     }
 
-    /// The number of a point, which is a new one unless it is there already. Where it lies on a segment, that becomes two.
-    fn add(&mut self, domain: &Domain, given: [f64; 2]) -> Result<u32, Error> {
-        let at = domain.normalize(given) + 0.0;
-        let back = domain.restore(at);
-        let unit = domain.restore_length(1.0);
-        if !given.iter().zip(back).all(|(x, back)| (x - back).abs() <= ON_BORDER * unit) {
-            return Err(does_not_hold(given));
+    /// Leaves out points that nothing needs any more.
+    fn keep_points(&mut self, stay: &[u32]) {
+        let mut is_kept = vec![false; self.points.len()];
+        self.segments.iter().flat_map(|segment| &segment.ends).chain(stay).for_each(|&v| is_kept[v as usize] = true);
+        let mut number = vec![0; self.points.len()];
+        let mut n = 0;
+        for (number, _) in number.iter_mut().zip(&is_kept).filter(|(_, is_kept)| **is_kept) {
+            *number = n;
+            n += 1;
         }
-        if let Some(number) = self.points.iter().position(|p| p.distance(at) < ON_BORDER) {
-            return Ok(number as u32);
-        }
-        let number = self.points.len() as u32;
-        let near = |segment: &Segment| {
-            let [from, to] = segment.ends.map(|v| self.points[v as usize]);
-            let share = ((at - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
-            at.distance(from + share * (to - from)) < ON_BORDER
-        };
-        if let Some(k) = self.segments.iter().position(near) {
-            let Segment { ends: [from, to], of } = self.segments[k];
-            self.segments[k].ends = [from, number];
-            self.segments.push(Segment { ends: [number, to], of });
-        }
-        self.points.push(at);
-        self.given.push(given);
-        Ok(number)
-    }
-
-    /// Adds a line from point to point, in pieces where others lie on it.
-    fn add_line(&mut self, [from, to]: [u32; 2], number: u32) {
-        let [start, end] = [from, to].map(|v| self.points[v as usize]);
-        let way = end - start;
-        let share = |p: DVec2| (p - start).dot(way) / way.length_squared();
-        let is_on_it = |p: DVec2| (0.0..=1.0).contains(&share(p)) && p.distance(start + share(p) * way) < ON_BORDER;
-        let others = (0..).zip(&self.points).filter(|&(v, &p)| v != from && v != to && is_on_it(p));
-        let mut between: Vec<(f64, u32)> = others.map(|(v, &p)| (share(p), v)).collect();
-        between.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut at = from;
-        for next in between.into_iter().map(|(_, v)| v).chain([to]).filter(|&next| next != from) {
-            self.segments.push(Segment { ends: [at, next], of: Of::Line(number) });
-            at = next;
-        }
+        let mut is_kept_too = is_kept.iter();
+        self.points.retain(|_| is_kept_too.next().copied().unwrap_or_default());
+        let mut is_kept = is_kept.iter();
+        self.given.retain(|_| is_kept.next().copied().unwrap_or_default());
+        self.segments.iter_mut().for_each(|segment| segment.ends = segment.ends.map(|v| number[v as usize]));
     }
 
     /// The triangulation of what the border encloses.
@@ -130,17 +178,13 @@ impl Outline {
             self.segments.iter().filter(|segment| matches!(segment.of, Of::Line(_)) == is_line).map(|segment| segment.ends).collect()
         };
         planar(Graph { points: &self.points, border: &of_kind(false), lines: &of_kind(true) }).map_err(|Crossing(crossed)| {
-            let all: Vec<[u32; 2]> = self.segments.iter().map(|segment| segment.ends).collect();
-            let met = meetings(&self.points, &all, &crossed).first().copied();
-            let at = domain.restore(met.unwrap_or(self.points[crossed[0][0] as usize]));
-            Error::InvalidPolygon {
-                problem: "has a line that crosses another, or the border; or its border meets itself in rounding".into(),
-                at,
-            }
+            let at = domain.restore(self.points[crossed[0][0] as usize]);
+            Error::InvalidPolygon { problem: "has a border or a line that meets another in rounding".into(), at }
         })
     }
 }
 
-fn does_not_hold(at: [f64; 2]) -> Error {
-    Error::InvalidPolygon { problem: "does not hold a fixed point or a line".into(), at }
+/// A ring that ends where it begins.
+fn closed(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    ring.iter().chain(ring.first()).copied().collect()
 }

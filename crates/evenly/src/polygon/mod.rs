@@ -2,7 +2,6 @@
 
 mod clean;
 mod corners;
-mod crossings;
 mod simplify;
 mod union;
 mod weld;
@@ -13,7 +12,6 @@ use glam::DVec2;
 
 use self::clean::{LeftOut, clean};
 use self::corners::Corners;
-pub(crate) use self::crossings::meetings;
 use self::union::{Figure, Union, union};
 use crate::error::Error;
 use crate::space::{Domain, Rectangle, Region, Space};
@@ -192,9 +190,22 @@ impl Polygon {
         &self.frame
     }
 
+    /// Whether a place, in input units, lies inside.
+    pub fn holds(&self, [x, y]: [f64; 2]) -> bool {
+        let sides = self.rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let crossed = sides.filter(|([ax, ay], [bx, by])| (*ay <= y) != (*by <= y) && ax + (bx - ax) * ((y - ay) / (by - ay)) > x);
+        crossed.count() % 2 == 1
+    }
+
     /// What was repaired, in plain words.
     pub fn repairs(&self) -> &[String] {
         &self.repairs
+    }
+
+    /// The same with one more thing to say of it.
+    pub fn noted(mut self, note: impl Into<String>) -> Self {
+        self.repairs.push(note.into());
+        self
     }
 
     /// The frame in normalised coordinates.

@@ -93,6 +93,11 @@ impl Domain {
         self.inside(q)
     }
 
+    /// A place in input units, normalised, wherever it lies and not rounded.
+    pub fn place(&self, p: [f64; 2]) -> DVec2 {
+        (DVec2::from(p) - self.origin) * self.scale
+    }
+
     /// Whether a place in the frame, in input units, lies in the domain or on its border.
     pub fn holds(&self, p: [f64; 2]) -> bool {
         self.border.as_ref().is_none_or(|border| border.holds(self.land((DVec2::from(p) - self.origin) * self.scale)))
