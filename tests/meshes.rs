@@ -298,7 +298,7 @@ fn many_lines_are_no_trouble() {
     let square = polygon(vec![rectangle([0.0, 0.0], [1.0, 1.0])]);
     let line = |k: usize| {
         let x = (k as f64 + 0.5) / 30.0;
-        if k % 2 == 0 { vec![[x, -1.0], [x, 2.0]] } else { vec![[-1.0, x], [2.0, x]] }
+        if k.is_multiple_of(2) { vec![[x, -1.0], [x, 2.0]] } else { vec![[-1.0, x], [2.0, x]] }
     };
     let mesh = meshed(&square, &MeshParams { lines: (0..30).map(line).collect(), ..MeshParams::new(0.05) });
     prove(&square, &mesh).unwrap();

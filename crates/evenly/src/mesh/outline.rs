@@ -157,11 +157,8 @@ impl Outline {
         let mut is_kept = vec![false; self.points.len()];
         self.segments.iter().flat_map(|segment| &segment.ends).chain(stay).for_each(|&v| is_kept[v as usize] = true);
         let mut number = vec![0; self.points.len()];
-        let mut n = 0;
-        for (number, _) in number.iter_mut().zip(&is_kept).filter(|(_, is_kept)| **is_kept) {
-            *number = n;
-            n += 1;
-        }
+        let kept = (0..number.len()).filter(|&v| is_kept[v]);
+        (0..).zip(kept).for_each(|(n, v)| number[v] = n);
         let mut is_kept_too = is_kept.iter();
         self.points.retain(|_| is_kept_too.next().copied().unwrap_or_default());
         let mut is_kept = is_kept.iter();
