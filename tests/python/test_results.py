@@ -79,7 +79,7 @@ def test_meshes_follow_sizes_densities_and_methods():
         ("min_angle is 50", {"spacing": 0.1, "min_angle": 50.0}),
         ("no_obtuse needs method push-pull", {"spacing": 0.1, "no_obtuse": True, "method": "lloyd"}),
         ("length at", {"spacing": 0.1, "sizes": [(0.5, 0.5, 0)]}),
-        ("does not hold a fixed point", {"spacing": 0.1, "fixed": [(3, 3)]}),
+        ("does not hold the fixed point", {"spacing": 0.1, "fixed": [(3, 3)]}),
         (r"line 0 must have the shape", {"spacing": 0.1, "lines": [(1, 2, 3)]}),
     ],
 )
