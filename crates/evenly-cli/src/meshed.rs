@@ -99,7 +99,7 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
         notes.push(format!("simplified: {} corners instead of {}", corners(&own), corners(polygon)));
     }
     if spacing > 0.0 && spacing.is_finite() {
-        own = own.welded(WELDED * spacing)?;
+        own = own.welded(WELDED * spacing).map_err(|e| names.told(e))?;
     }
     notes.extend(own.repairs()[n_repairs..].iter().cloned());
     let polygon = &own;

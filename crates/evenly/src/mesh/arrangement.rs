@@ -1,6 +1,6 @@
 //! Segments become pieces where others cross them, and where points lie on them.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec2;
 
@@ -86,7 +86,7 @@ pub(super) fn arranged(places: &mut Places, segments: &[Segment]) -> Vec<Segment
             on[other as usize].push(v);
         }
     }
-    let mut seen = std::collections::HashSet::new();
+    let mut seen = HashSet::new();
     let mut pieces = Vec::new();
     for ((segment, &[a, b]), mut points) in segments.iter().zip(&ends).zip(on) {
         let along = |v: u32| (places.points[v as usize] - a).dot(b - a);

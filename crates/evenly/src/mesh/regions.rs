@@ -1,6 +1,6 @@
 //! [`MeshRegion`]: parts of the domain that a mesh keeps apart, as parcels and materials are.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use serde::Serialize;
 
@@ -33,7 +33,7 @@ pub(super) fn mark(mesh: &mut Mesh, regions: &[MeshRegion], first: usize) {
             at_side.entry(sorted([corners[k], corners[(k + 1) % 3]])).or_default().push(t);
         }
     }
-    let walls: std::collections::HashSet<[usize; 2]> = mesh.edges.iter().map(|edge| sorted(edge.ends)).collect();
+    let walls: HashSet<[usize; 2]> = mesh.edges.iter().map(|edge| sorted(edge.ends)).collect();
     // From triangle to triangle where no edge stands between them: all lie in the same region.
     mesh.regions = vec![NONE; mesh.triangles.len()];
     let mut is_seen = vec![false; mesh.triangles.len()];
