@@ -75,6 +75,19 @@ fn all_targets_known_in_rectangles_are_reached() {
     }
 }
 
+/// Few points come to rest in one order of visits and not in another: they are given several.
+#[test]
+fn few_points_in_rectangles_reach_the_default_targets() {
+    for (size, n) in [([2.0, 1.0], 50), ([1.0, 1.0], 20), ([1e-9, 1e-9], 50)] {
+        for seed in 0..6 {
+            let mut points = white(rectangle([0.0, 0.0], size), n, seed).unwrap();
+            let params = PushPullParams { seed, ..PushPullParams::default() };
+            let report = push_pull(&mut points, &params, &mut RunContext::default()).unwrap();
+            assert_eq!((report.outcome, params.unmet(&measure(&points).unwrap())), (Outcome::Converged, vec![]), "{size:?} {n} {seed}");
+        }
+    }
+}
+
 /// What is tougher than that is warned of, and the state that is kept is good nearly everywhere.
 #[test]
 fn one_bad_spot_does_not_speak_for_all_points() {

@@ -73,7 +73,8 @@ pub struct PushPullParams {
     /// Whether points move at each visit, or at the end of a pass. The second is the paper's parallel variant: it takes several times the
     /// passes, fails at tougher targets, and makes points less regular.
     pub schedule: Schedule,
-    /// Stops after this many passes in any case; `None` for a limit that grows with the number of points, 2000 at least.
+    /// Stops after this many passes in any case; `None` for a limit that grows with the number of points,
+    /// 2000 at least, and up to 20 attempts at few points.
     pub max_passes: Option<usize>,
     /// The order of visits depends on it.
     pub seed: u64,
@@ -104,6 +105,9 @@ impl Default for PushPullParams {
     }
 }
 
+/// So many attempts are made, while they have taken fewer than [`QUICK`] visits: half a second.
+const ATTEMPTS: usize = 20;
+const QUICK: usize = 1_000_000;
 /// So often points are transferred to where there is room.
 const TRANSFERS: usize = 4;
 /// In rectangles a smaller tolerance is not known to be reached together with {0.85, 0.67}.
@@ -186,9 +190,14 @@ impl PushPullParams {
         if self.schedule == Schedule::Summed { 0.5 } else { 1.0 }
     }
 
+    /// Passes of all attempts together.
+    fn most_passes(&self) -> usize {
+        self.max_passes.unwrap_or(usize::MAX)
+    }
+
     /// Passes that tough targets may take: more points have a worse worst spot.
     fn pass_limit(&self, n_points: usize) -> usize {
-        self.max_passes.unwrap_or_else(|| (1000.0 * ((n_points as f64).log10() - 1.0)).max(2000.0) as usize)
+        (1000.0 * ((n_points as f64).log10() - 1.0)).max(2000.0) as usize
     }
 }
 
@@ -236,7 +245,8 @@ fn is_tolerated(deviation: f64, tolerance: f64) -> bool {
 /// Optimises `points` in place; their number and order stay.
 ///
 /// Where the targets are not reached, the report says so, and `points` are in the best state that was seen: that which misses a target by least. Where
-/// they are tougher than what is known to be reached, that is reached first.
+/// they are tougher than what is known to be reached, that is reached first. Few points, some hundreds, begin again in other orders
+/// of visits where targets are missed.
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] as [`PushPullParams::validate`] has it; [`Error::TooFine`] where f64 cannot tell the points apart;
@@ -270,7 +280,7 @@ pub(super) fn push_and_pull(
     run: &mut RunContext,
     report: &mut Report,
 ) -> Result<(), Error> {
-    push_and_pull_once(points, params, run, report)?;
+    attempt(points, params, run, report)?;
     let mut miss = if report.outcome == Outcome::Forced { params.total_miss(points) } else { 0.0 };
     for _ in 0..TRANSFERS {
         if report.outcome != Outcome::Forced {
@@ -288,6 +298,31 @@ pub(super) fn push_and_pull(
     Ok(())
 }
 
+/// Few points may come to rest in one order of visits and not in another: where targets are missed, they
+/// begin again from the start, while that is quick. The attempt that misses the targets by least counts.
+fn attempt(points: &mut PointSet, params: &PushPullParams, run: &mut RunContext, report: &mut Report) -> Result<(), Error> {
+    let start = points.clone();
+    let n_notes = report.notes.len();
+    push_and_pull_once(points, params, run, report)?;
+    let n_points = points.n_points();
+    let mut miss = None;
+    for _ in 1..ATTEMPTS {
+        let is_out_of_passes = report.iterations * n_points > QUICK || report.iterations >= params.most_passes();
+        if report.outcome != Outcome::IterationLimit || is_out_of_passes {
+            break;
+        }
+        let least = *miss.get_or_insert_with(|| params.total_miss(points));
+        let mut again = start.clone();
+        report.notes.truncate(n_notes);
+        push_and_pull_once(&mut again, params, run, report)?;
+        let missed = params.total_miss(&again);
+        if report.outcome == Outcome::Converged || missed < least {
+            (*points, miss) = (again, Some(missed));
+        }
+    }
+    Ok(())
+}
+
 /// Visits until all points are at rest.
 fn push_and_pull_once(points: &mut PointSet, params: &PushPullParams, run: &mut RunContext, report: &mut Report) -> Result<(), Error> {
     // Distinct points, and their Delaunay triangulation.
@@ -300,7 +335,7 @@ fn push_and_pull_once(points: &mut PointSet, params: &PushPullParams, run: &mut 
         ends_if_diverging: params.relaxation > params.safe_relaxation(),
         // In the nooks of a border targets may not be reached at all.
         ends_if_stuck: points.space().region().is_some(),
-        ..Plan::of_passes(params.pass_limit(points.n_points()), params.seed)
+        ..Plan::of_passes(params.most_passes().min(report.iterations + params.pass_limit(points.n_points())), params.seed)
     };
 
     // Of targets that are not known to be reached, first the nearest that are.

@@ -25,7 +25,7 @@ use crate::run::{Outcome, Report, RunContext};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct WellSpacedParams {
     /// The coverage radius over the smallest distance shall be this at most; 0.578 or more, where 0.577 is the hexagonal lattice's. Down to 0.67 is
-    /// known to be reached on a torus, to 0.72 in a rectangle. Less makes points more regular: psi6 is 0.48 at 0.75, 0.54 at 0.70 and 0.59 at 0.67.
+    /// known to be reached on a torus, to 0.72 in a rectangle from 50 points on. Less makes points more regular: psi6 is 0.48 at 0.75, 0.54 at 0.70 and 0.59 at 0.67.
     pub beta: f64,
     /// Stops after this many passes in any case; `None` for a limit that grows with the number of points, 2000 at least.
     pub max_passes: Option<usize>,
@@ -59,8 +59,17 @@ const WAYS: [Way; 4] = [
 ];
 /// The coverage radius of the hexagonal lattice, rounded up.
 const LEAST_RADIUS: f64 = 0.5774;
-/// What is known to be reached, on a torus and in a rectangle.
-const KNOWN: [f64; 2] = [0.67, 0.72];
+/// What is known to be reached on a torus.
+const ON_TORUS: f64 = 0.67;
+
+/// What is known to be reached in a rectangle by so many points: few have no room between its walls.
+fn in_rectangle(n_points: usize) -> f64 {
+    match n_points {
+        50.. => 0.72,
+        20.. => 0.80,
+        _ => 0.90,
+    }
+}
 
 impl WellSpacedParams {
     /// Checks the parameters, as [`well_spaced`] does before it begins.
@@ -101,7 +110,7 @@ impl Targets for WellSpacedParams {
     }
 
     fn advice(&self, points: &PointSet) -> Option<String> {
-        let known = KNOWN[usize::from(!points.space().is_periodic())];
+        let known = if points.space().is_periodic() { ON_TORUS } else { in_rectangle(points.n_points()) };
         let text = || format!("beta {} is not known to be reached here, and the run may be long; {known} is", self.beta);
         (self.beta < known).then(text)
     }
