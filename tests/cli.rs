@@ -290,7 +290,7 @@ fn bad_input_gets_one_line_and_no_file() {
         ("compare -n 10 -o o.txt", "o.txt: unknown ending; use one of .md .csv .json .html"),
         ("compare missing.txt", "missing.txt: No such file"),
         ("generate -n 10 -o good.txt", "good.txt exists already; pass --force"),
-        ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .svg .png .pdf"),
+        ("generate -n 10 -o o.xyz", "o.xyz: unknown ending; use one of .txt .csv .npy .geojson .svg .png .pdf"),
         ("generate -n 10 -o o", "o: no ending"),
         ("generate -n 10 -o folder", "folder: "),
         ("generate -n 10 -o nowhere/o.txt", "nowhere/o.txt: its folder does not exist"),
@@ -390,6 +390,52 @@ fn an_interrupt_writes_the_best_state() {
     let report = json(&shell.read("run.json"));
     assert_eq!(report["run"]["outcome"], "cancelled");
     assert_eq!(fs::metadata(shell.path("a.npy")).unwrap().len(), 16 * 300_000 + 128);
+}
+
+/// Batch systems send SIGTERM, lost terminals SIGHUP.
+#[cfg(unix)]
+#[test]
+fn other_signals_write_the_best_state_too() {
+    for (signal, code) in [("-TERM", 143), ("-HUP", 129)] {
+        let shell = Shell::new();
+        let line = "generate -n 300000 --mode paper --no-warp --tolerance 1e-9 -i 100000 -o a.npy";
+        let child = shell.command(line).stderr(Stdio::piped()).spawn().unwrap();
+        std::thread::sleep(std::time::Duration::from_secs(4));
+        Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+        assert_eq!(child.wait_with_output().unwrap().status.code(), Some(code));
+        assert_eq!(shell.files(), ["a.npy"]);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn outputs_that_cannot_be_are_refused_before_the_work() {
+    let shell = Shell::new();
+    std::os::unix::fs::symlink("nowhere/x.csv", shell.path("link.csv")).unwrap();
+    let refused = |line: &str| {
+        let output = shell.command(line).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{line}");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    assert!(refused("generate -n 5 -o link.csv --force").contains("a link to a file that does not exist"));
+    assert!(refused("generate -n 5 -o - --report /dev/stdout").contains("cannot go to the same file"));
+    let closed = Command::new("sh").arg("-c").arg(format!("{} generate -n 5 -o - >&-", env!("CARGO_BIN_EXE_evenly"))).output().unwrap();
+    assert_eq!(closed.status.code(), Some(2), "{}", String::from_utf8_lossy(&closed.stderr));
+    let many = shell.command("generate -n 100 --method white -j 5000 -o a.txt").output().unwrap();
+    assert!(String::from_utf8_lossy(&many.stderr).contains("threads are used, 4 for each core"));
+}
+
+#[test]
+fn points_of_tables_and_maps_keep_what_is_said_of_them() {
+    let shell = Shell::new();
+    shell.write("t.csv", "id,y,x,what\n1,.1,.2,a\n2,.5,.6,\"b,c\"\n3,.9,.1,\"\"\"d\"\"\"\n");
+    shell.ok("optimize t.csv --method lloyd -i 1 -o u.csv");
+    let rows: Vec<String> = shell.read("u.csv").lines().map(str::to_owned).collect();
+    assert_eq!(rows[0], "x,y,id,what");
+    assert!(rows[2].ends_with(",2,\"b,c\"") && rows[3].ends_with(",3,\"\"\"d\"\"\""), "{rows:?}");
+    shell.ok("generate -n 50 --method white -o p.geojson");
+    shell.ok("generate -n 50 --method white -o p.txt");
+    assert_eq!(shell.ok("analyze p.geojson --json"), shell.ok("analyze p.txt --json"));
 }
 
 #[cfg(target_os = "linux")]

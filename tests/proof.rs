@@ -163,11 +163,11 @@ fn a_bilateral_filter_needs_few_samples_and_any_picture() {
     shell.write("broken.png", "\u{89}PNG and no more");
     shell.write("cut.jpg", b"\xff\xd8\xff\xe0\xff\xd9\xff\xda and the scan ends");
     for (flags, reason) in [
-        ("broken.png --samples even.txt", "broken.png: not a readable PNG, JPEG or TIFF"),
+        ("broken.png --samples even.txt", "broken.png: not a readable PNG, JPEG, TIFF, WebP, GIF or BMP"),
         ("cut.jpg --samples even.txt", "not a whole JPEG"),
         ("small.png --samples even.txt --range -1", "--range is -1"),
         ("no.png --samples even.txt", "no.png: No such file"),
-        ("even.txt --samples even.txt", "even.txt: not a readable PNG, JPEG or TIFF"),
+        ("even.txt --samples even.txt", "even.txt: not a readable PNG, JPEG, TIFF, WebP, GIF or BMP"),
         ("small.png --samples even.txt --kernel 0", "--kernel is 0"),
         ("small.png --samples even.txt --range 1e-200", "a millionth at least"),
         ("small.png --samples even.txt -o new.png --full ./new.png", "the same file"),

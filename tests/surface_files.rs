@@ -52,6 +52,7 @@ fn a_mesh_goes_out_in_every_format_and_is_measured_alike() {
     shell.ok("remesh torus.off -n 600 -o m.stl");
     shell.ok("remesh torus.off -n 600 -o m.vtu --plot m.svg");
     assert!(shell.read("m.svg").starts_with("<svg"));
+    shell.ok("remesh torus.off -n 600 --ascii -o m.ply --force");
     let ply = shell.read("m.ply");
     for name in ["nx", "facet", "bary2"] {
         assert!(ply.contains(&format!("property double {name}\n")), "{name}");
@@ -128,7 +129,9 @@ fn bad_input_is_one_clear_error() {
         ("remesh nothing.obj -n 100 -o m.ply", "nothing.obj"),
         ("remesh torus.off -o m.ply", "required"),
         ("remesh torus.off -n 100 --spacing 1 -o m.ply", "cannot be used"),
-        ("remesh torus.off -n 3 -o m.ply", "--n-points is 3"),
+        ("remesh torus.off -n 2 -o m.ply", "--n-points is 2"),
+        ("remesh torus.off -n 300 --ascii -o m.obj", "--ascii is for .ply"),
+        ("remesh torus.off -n 300 --weld 0 -o m.obj", "--weld is 0"),
         ("remesh torus.off -n 100 --density linear:w,3 -o m.ply", "linear:axis,ratio"),
         ("remesh torus.off -n 100 --density attr:heat -o m.ply", "attr"),
         ("remesh torus.off -n 100 --features 200deg -o m.ply", "below 180"),

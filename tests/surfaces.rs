@@ -364,6 +364,97 @@ fn what_is_no_manifold_is_refused_by_name_and_repaired() {
     assert_eq!((spheres.n_components(), spheres.euler_characteristic()), (2, 4));
 }
 
+fn volume(surface: &Surface) -> f64 {
+    let TriangleMesh { vertices, triangles, .. } = surface.to_mesh();
+    let of = |t: &[usize; 3]| {
+        let [a, b, c] = t.map(|v| vertices[v]);
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+    };
+    triangles.iter().map(of).sum::<f64>() / 6.0
+}
+
+#[test]
+fn a_closed_part_with_turned_triangles_ends_with_positive_volume() {
+    let whole = volume(&Surface::new(&cube(1)).unwrap());
+    for n_turned in 1..cube(1).triangles.len() {
+        let mut mesh = cube(1);
+        mesh.triangles.iter_mut().take(n_turned).for_each(|t| t.swap(0, 1));
+        let surface = Surface::repaired(&mesh).unwrap();
+        assert!((volume(&surface) - whole).abs() < 1e-9 * whole, "{n_turned}");
+    }
+}
+
+/// Vertices on all sides of a triangle that those across have not, two on one.
+#[test]
+fn cracks_at_vertices_on_edges_are_closed() {
+    let mut mesh = cube(1);
+    let [a, b, c] = mesh.triangles[0];
+    let middle = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|k| 0.5 * (p[k] + q[k]));
+    let sides = [[a, b], [b, c], [c, a]].map(|[p, q]| middle(mesh.vertices[p], mesh.vertices[q]));
+    let n = mesh.vertices.len();
+    mesh.vertices.extend(sides);
+    mesh.vertices.push(middle(mesh.vertices[a], sides[0]));
+    mesh.triangles[0] = [n, n + 1, n + 2];
+    mesh.triangles.extend([[a, n + 3, n + 2], [n + 3, n, n + 2], [n, b, n + 1], [n + 2, n + 1, c]]);
+    assert!(!Surface::new(&mesh).unwrap().is_closed());
+    let surface = Surface::repaired(&mesh).unwrap();
+    assert!(surface.is_closed() && surface.euler_characteristic() == 2);
+    let area = Surface::new(&cube(1)).unwrap().area();
+    assert!((surface.area() - area).abs() < 1e-12 * area);
+}
+
+#[test]
+fn near_corners_are_told_and_welded() {
+    // Triangles that share nothing, whose corners are a little off.
+    let whole = sphere(16);
+    let off = |k: usize| 1e-7 * (k as f64).sin();
+    let mut soup = TriangleMesh::default();
+    for corner in whole.triangles.iter().flatten() {
+        let k = soup.vertices.len();
+        soup.vertices.push(whole.vertices[*corner].map(|x| x + off(k)));
+    }
+    soup.triangles = (0..whole.triangles.len()).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let open = Surface::new(&soup).unwrap();
+    assert_eq!(open.n_components(), whole.triangles.len());
+    let (n, distance) = open.near_borders().unwrap();
+    assert!(n == soup.vertices.len() && distance < 4e-7, "{n} {distance}");
+    let (welded, _) = soup.welded(1e-6);
+    let surface = Surface::new(&welded).unwrap();
+    assert!(surface.is_closed() && surface.n_vertices() == whole.vertices.len());
+    assert_eq!(surface.near_borders(), None);
+    assert_eq!(Surface::new(&patch(20)).unwrap().near_borders(), None);
+    // Points need no mesh that hangs together.
+    for n in [1, 2, 10, 300] {
+        let places: HashSet<_> = positions(&open, SurfaceSampling::PushPull(n), 5).into_iter().map(|p| p.map(f64::to_bits)).collect();
+        assert_eq!(places.len(), n);
+    }
+}
+
+#[test]
+fn any_number_of_vertices_is_possible_from_the_least_on() {
+    let triangle =
+        TriangleMesh { vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], triangles: vec![[0, 1, 2]], attributes: Vec::new() };
+    for (name, mesh, least) in [("triangle", triangle, 4), ("cube", cube(1), 10), ("sphere", sphere(12), 10), ("patch", patch(3), 4)] {
+        let surface = Surface::new(&mesh).unwrap();
+        for (n, seed) in (least..least + 20).flat_map(|n| [(n, 1), (n, 7)]) {
+            let made = remesh(&surface, &RemeshParams { n_points: n, seed, ..RemeshParams::default() }, &mut RunContext::default());
+            assert_eq!(made.map(|(made, _)| made.mesh.vertices.len()), Ok(n), "{name}, {n}, {seed}");
+        }
+    }
+}
+
+/// What is written is read as it was meant.
+#[test]
+fn no_two_vertices_are_in_one_place() {
+    for mesh in [touching_spheres(), solids::two_at_an_edge()] {
+        let surface = Surface::repaired(&mesh).unwrap();
+        let (made, _) = remeshed(&surface, 800, 3);
+        let places: HashSet<_> = made.mesh.vertices.iter().map(|p| p.map(f64::to_bits)).collect();
+        assert_eq!(places.len(), 800);
+        assert_eq!(Surface::new(&made.mesh).unwrap().n_vertices(), 800);
+    }
+}
+
 #[test]
 fn bad_input_is_one_clear_error() {
     let params = |n_points: usize| RemeshParams { n_points, ..RemeshParams::default() };

@@ -105,7 +105,7 @@ pub struct Generate {
 #[derive(Args)]
 #[command(after_help = "Example:\n  evenly optimize in.csv --space rect --size 640,480 -o out.csv")]
 pub struct Optimize {
-    /// Points as .txt, .csv or .npy; - is stdin
+    /// Points as .txt, .csv, .npy or .geojson; - is stdin
     pub input: PathBuf,
     /// How they are improved
     #[arg(long, default_value = "procrustes", value_parser = parser(|method| method.is_optimizer() || method == Method::Warp))]
@@ -132,7 +132,7 @@ pub struct Optimize {
     after_help = "Example:\n  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html\n\nTargets that are missed are no failure here: the table has the share of runs that reached them."
 )]
 pub struct Compare {
-    /// Points that all begin with, as .txt, .csv or .npy; - is stdin [default: new ones for each run, from --start]
+    /// Points that all begin with, as .txt, .csv, .npy or .geojson; - is stdin [default: new ones for each run, from --start]
     pub input: Option<PathBuf>,
     /// How many points, without an input
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "input")]
@@ -165,10 +165,10 @@ pub struct Compare {
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub struct RunArgs {
-    /// Where the points go: .txt .csv .npy, or drawn: .svg .png .pdf; - is stdout
+    /// Where they go: .txt .csv .npy .geojson, drawn: .svg .png .pdf; - is stdout
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// The output's format, txt csv npy svg png or pdf, if its name does not tell
+    /// The output's format, if its name does not tell
     #[arg(long, value_parser = parse_format)]
     pub format: Option<Format>,
     /// What is drawn, parts as in analyze [default: points]

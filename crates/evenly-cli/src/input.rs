@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use evenly::{PointSet, Space};
+use evenly_io::{Columns, Table};
 
 use crate::talk::say;
 
@@ -27,11 +28,16 @@ pub fn read_and_tell(input: &Path, space: &Space) -> anyhow::Result<PointSet> {
 
 /// Reads points; on a torus also a note if some lay outside and were wrapped.
 pub fn read(input: &Path, space: &Space) -> anyhow::Result<(PointSet, Option<String>)> {
-    let positions = evenly_io::read_positions(input)?;
+    read_with_columns(input, space).map(|(points, note, _)| (points, note))
+}
+
+/// As [`read`], with the other columns of the file.
+pub fn read_with_columns(input: &Path, space: &Space) -> anyhow::Result<(PointSet, Option<String>, Columns)> {
+    let Table { positions, columns } = evenly_io::read_table(input)?;
     let n_outside = positions.iter().filter(|p| is_outside(space, p)).count();
     let points = PointSet::new(space, positions).with_context(|| input.display().to_string())?;
     let note = format!("{n_outside} points lie outside the torus {space} and were wrapped into it; are --size and --origin right?");
-    Ok((points, (n_outside > 0).then_some(note)))
+    Ok((points, (n_outside > 0).then_some(note), columns))
 }
 
 fn is_outside(space: &Space, p: &[f64; 2]) -> bool {

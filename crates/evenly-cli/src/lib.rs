@@ -51,6 +51,7 @@ const BAD_INPUT: u8 = 2;
 pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
     record::keep_command(&words);
+    interrupt::listen();
     let parsed = args::command().try_get_matches_from(words).and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)));
     let (cli, matches) = match parsed {
         Ok(parsed) => parsed,

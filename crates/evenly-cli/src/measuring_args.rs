@@ -10,7 +10,7 @@ use crate::shared_args::{DensityArgs, DrawArg, LongArgs, MetricArg, SpaceArgs};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
 pub struct Analyze {
-    /// Points as .txt, .csv or .npy; - is stdin. Of several sets the spectrum is the mean of theirs. Or a mesh, as .ply .obj .off .stl .gltf .glb; or, with --reference, points on one, as .ply, .csv or .txt
+    /// Points as .txt, .csv, .npy or .geojson; - is stdin. Of several sets the spectrum is the mean of theirs. Or a mesh, as .ply .obj .off .stl .gltf .glb; or, with --reference, points on one, as .ply, .csv or .txt
     #[arg(required = true)]
     pub inputs: Vec<PathBuf>,
     /// Of a mesh: the one that it stands for, for the distance to it. Of points in space: the mesh on which they lie
@@ -44,7 +44,7 @@ pub struct Analyze {
 #[derive(Args)]
 #[command(after_help = "Example:\n  evenly zoneplate points.txt -o plate.png")]
 pub struct Zoneplate {
-    /// Points as .txt, .csv or .npy; - is stdin. One sample a pixel: a torus is repeated, a rectangle must have enough
+    /// Points as .txt, .csv, .npy or .geojson; - is stdin. One sample a pixel: a torus is repeated, a rectangle must have enough
     pub input: PathBuf,
     #[command(flatten)]
     pub space: SpaceArgs,
@@ -69,7 +69,7 @@ pub struct Zoneplate {
 pub struct Bilateral {
     /// A picture, .png or .jpg; - is stdin. What is transparent lies on white
     pub input: PathBuf,
-    /// Points as .txt, .csv or .npy: where the picture is looked at. A torus is repeated, a rectangle must have enough
+    /// Points as .txt, .csv, .npy or .geojson: where the picture is looked at. A torus is repeated, a rectangle must have enough
     #[arg(long, value_name = "FILE")]
     pub samples: PathBuf,
     #[command(flatten)]

@@ -29,10 +29,13 @@ pub struct Mesh {
     /// The output's format, if its name does not tell
     #[arg(long, value_parser = parse_mesh_format)]
     pub format: Option<MeshFormat>,
+    /// Write .ply as text, not binary
+    #[arg(long, help_heading = "Output")]
+    pub ascii: bool,
     /// Wanted lengths of edges at points, as x y length a line, where they are to be shorter; they grow from there by --grade, or by 0.25
     #[arg(long, value_name = "FILE", help_heading = "Size")]
     pub sizes: Option<PathBuf>,
-    /// Points that become vertices, as .txt, .csv or .npy
+    /// Points that become vertices, as .txt, .csv, .npy or .geojson
     #[arg(long, value_name = "FILE", help_heading = "Constraints")]
     pub fixed: Option<PathBuf>,
     /// Lines inside that become edges: GeoJSON, WKT, SVG, or text with a blank line between them

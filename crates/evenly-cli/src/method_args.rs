@@ -39,7 +39,7 @@ pub struct OptimizerArgs {
     capacity_tolerance: Option<Target>,
     /// Coverage radius over smallest distance: below 0.707 no triangle is obtuse [default: 0.75; opt-beta: 0.85]
     ///
-    /// Well-spaced is known to reach 0.67 on a torus and 0.72 in a rectangle from 50 points on; opt-beta 0.72 with 1,000 points in 3000 sweeps, 0.76 to 0.79 with 10,000 in 1000.
+    /// Well-spaced is known to reach 0.67 on a torus and 0.72 in a rectangle; opt-beta 0.72 with 1,000 points in 3000 sweeps, 0.76 to 0.79 with 10,000 in 1000.
     #[arg(long, value_name = "B", allow_negative_numbers = true, help_heading = "Targets")]
     beta: Option<f64>,
     /// paper: plain steps, the energy never rises (but where a rectangle is triangulated anew); fast: momentum [default: fast]

@@ -28,6 +28,9 @@ pub struct Remesh {
     /// The output's format, if its name does not tell
     #[arg(long, value_parser = parse_mesh_format)]
     pub format: Option<MeshFormat>,
+    /// Write .ply as text, not binary
+    #[arg(long, help_heading = "Output")]
+    pub ascii: bool,
     /// A shaded picture of the mesh: .svg .png .pdf
     #[arg(long, value_name = "OUT", help_heading = "Output")]
     pub plot: Option<PathBuf>,
@@ -93,9 +96,12 @@ pub struct RemeshWishes {
     /// How far the input may be from the mesh, where edges are short less in proportion: where it is farther, a vertex is put and kept, if targets can be met so; off for as it comes [default: 0.5 spacings, 0.35 with --density]
     #[arg(long, value_name = "D", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Shape")]
     pub tolerance: Option<Target>,
-    /// Mend what can be without guessing: turn triangles that run the wrong way, separate sheets that touch, cut open what is left
+    /// Mend what can be without guessing: turn triangles that run the wrong way, close cracks at vertices on open edges, separate sheets that touch, cut open what is left
     #[arg(long, help_heading = "Shape")]
     pub repair: bool,
+    /// Make one of corners that lie within this distance of each other, in the input's units
+    #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = "Shape")]
+    pub weld: Option<f64>,
 }
 
 /// How vertices find their places.
@@ -154,6 +160,9 @@ pub struct Sample {
     /// The output's format, ply csv or txt, if its name does not tell
     #[arg(long, value_parser = parse_cloud_format)]
     pub format: Option<CloudFormat>,
+    /// Write .ply as text, not binary
+    #[arg(long, help_heading = "Output")]
+    pub ascii: bool,
     /// Print the run's whole record on stdout, as JSON
     #[arg(long, help_heading = "Output")]
     pub json: bool,
@@ -177,9 +186,12 @@ pub struct SampleWishes {
     /// The same seed gives the same points
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
-    /// Mend the mesh, as in remesh
+    /// Mend the mesh, as in remesh; done in any case where there is no other way
     #[arg(long)]
     pub repair: bool,
+    /// Make one of corners that lie within this distance of each other, in the input's units
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    pub weld: Option<f64>,
 }
 
 /// How points are spread over a surface.

@@ -70,6 +70,31 @@ pub fn surface_of(mesh: &TriangleMesh, name: &Path, is_repaired: bool) -> anyhow
     })
 }
 
+/// The mesh with corners welded that lie within a tolerance, if there is one, and a note on how many these are.
+///
+/// # Errors
+/// A tolerance that is not positive and finite.
+pub fn welded(mesh: TriangleMesh, tolerance: Option<f64>, notes: &mut Vec<String>) -> anyhow::Result<TriangleMesh> {
+    let Some(tolerance) = tolerance else { return Ok(mesh) };
+    if !(tolerance > 0.0 && tolerance.is_finite()) {
+        bail!("--weld is {tolerance}; it must be positive and finite");
+    }
+    let (mesh, n) = mesh.welded(tolerance);
+    notes.push(format!("{n} vertices within {tolerance} of another were put to its place"));
+    Ok(mesh)
+}
+
+/// What was done to a surface, and what else there is to say of it.
+pub fn notes_on(surface: &Surface) -> Vec<String> {
+    let seams = surface.near_borders().map(|(n, distance)| {
+        let weld = 10.0 * distance;
+        format!(
+            "{n} vertices of borders lie within {distance:.1e} of another border's; where these should be one, --weld {weld:.0e} joins them"
+        )
+    });
+    surface.notes().iter().cloned().chain(seams).collect()
+}
+
 /// Makes a new mesh, from given points if there are any; of wishes in words see [`wishes`].
 ///
 /// # Errors

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
 use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
-use evenly_io::{Draw, Target, write_points};
+use evenly_io::{Columns, Draw, Target, write_table};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::RunArgs;
@@ -34,11 +34,20 @@ pub struct Session<'a> {
     optimizer: Option<Box<dyn Optimizer>>,
     /// What the points of the unit square are restored to before they are written.
     pub restores_to: Option<PointSet>,
+    /// Other columns of the file that the points come from.
+    pub columns: Columns,
 }
 
-/// Threads for rayon: as many as asked for, or as there are cores.
-pub fn pool(threads: Option<u16>) -> anyhow::Result<rayon::ThreadPool> {
-    let n_threads = threads.map_or(0, usize::from);
+/// More threads than this for each core only get in each other's way.
+const MOST_A_CORE: usize = 4;
+
+/// Threads for rayon: as many as asked for, within reason, or as there are cores.
+pub fn pool(threads: Option<u16>, is_quiet: bool) -> anyhow::Result<rayon::ThreadPool> {
+    let most = MOST_A_CORE * std::thread::available_parallelism().map_or(1, usize::from);
+    let n_threads = threads.map_or(0, usize::from).min(most);
+    if threads.is_some_and(|threads| usize::from(threads) > n_threads) && !is_quiet {
+        say(format_args!("note: {n_threads} threads are used, {MOST_A_CORE} for each core; the result does not depend on it"));
+    }
     rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().context("no threads")
 }
 
@@ -67,12 +76,13 @@ impl<'a> Session<'a> {
             output,
             report,
             draw: if draw.is_empty() { vec![Draw::Points] } else { draw },
-            pool: pool(args.threads)?,
+            pool: pool(args.threads, args.quiet)?,
             cancel,
             seconds: BTreeMap::new(),
             notes: Vec::new(),
             optimizer: None,
             restores_to: None,
+            columns: Columns::default(),
         })
     }
 
@@ -106,7 +116,7 @@ impl<'a> Session<'a> {
         if let Some(advice) = optimizer.targets().and_then(|targets| targets.advice(&points)) {
             self.note(advice);
         }
-        interrupt::cancels(&self.cancel, self.args.quiet)?;
+        interrupt::cancels(&self.cancel, self.args.quiet);
         let bar = bar(self.args.quiet, 1000, "{msg} [{bar:30}] {eta} left");
         let mut clock = PhaseClock::default();
         let cancel = self.cancel.clone();
@@ -125,6 +135,7 @@ impl<'a> Session<'a> {
             self.note(note);
         }
         if let Some(start) = start
+            && !self.cancel.is_cancelled()
             && self.time("measure", || is_nearer(&start, &points, &report, &*optimizer))
         {
             self.note(KEPT.into());
@@ -137,7 +148,8 @@ impl<'a> Session<'a> {
     /// Measures the points, writes them and the record, and says how it went.
     pub fn finish(mut self, points: PointSet, method: Method, run: Option<Report>) -> anyhow::Result<u8> {
         let has_targets = self.optimizer.as_ref().is_some_and(|optimizer| optimizer.targets().is_some());
-        let is_wanted = !self.args.quiet || self.args.json || self.report.is_some() || has_targets;
+        // Who interrupts does not wait for measures.
+        let is_wanted = (!self.args.quiet || self.args.json || self.report.is_some() || has_targets) && !self.cancel.is_cancelled();
         let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
         let targets = self.optimizer.as_ref().and_then(|optimizer| optimizer.targets());
         let unmet = targets.zip(measures.as_ref()).map(|(targets, measures)| targets.unmet(measures));
@@ -145,7 +157,8 @@ impl<'a> Session<'a> {
         let start = Instant::now();
         let restored = self.restores_to.as_ref().filter(|_| self.output.format().holds_points());
         let restored = restored.map(|given| points.restored_to(given)).transpose()?;
-        self.pool.install(|| write_points(restored.as_ref().unwrap_or(&points), &self.draw, &recipe, &self.output))?;
+        let written = restored.as_ref().unwrap_or(&points);
+        self.pool.install(|| write_table(written, &self.columns, &self.draw, &recipe, &self.output))?;
         self.seconds.insert("write", start.elapsed().as_secs_f64());
         if !self.args.quiet {
             self.summarize(&points, run.as_ref(), measures.as_ref());
@@ -182,7 +195,7 @@ impl<'a> Session<'a> {
             Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
         }
         Ok(match outcome {
-            _ if self.cancel.is_cancelled() => interrupt::CODE,
+            _ if self.cancel.is_cancelled() => interrupt::code(),
             _ if has_missed => NOT_REACHED,
             Some(Outcome::IterationLimit | Outcome::LostToRounding) if is_unproved => NOT_REACHED,
             _ => DONE,

@@ -67,7 +67,7 @@ pub struct DensityArgs {
 
 #[derive(Args)]
 pub struct FixedArg {
-    /// Points that stay where they are, as .txt, .csv or .npy
+    /// Points that stay where they are, as .txt, .csv, .npy or .geojson
     ///
     /// They are among the N, and come first in the output.
     #[arg(long, value_name = "FILE")]

@@ -71,7 +71,7 @@ pub fn analyze(args: &Analyze) -> anyhow::Result<u8> {
     }
     let plot = args.plot.as_ref().map(|path| Target::figure(path, args.measured.force)).transpose()?;
     input::require_one_stdin([Some(path), args.reference.as_ref()].into_iter().flatten())?;
-    let pool = session::pool(args.measured.threads)?;
+    let pool = session::pool(args.measured.threads, false)?;
     let read = read_triangles_or_points(path)?;
     let mut notes = Vec::new();
     let mut reference_of = |path: &PathBuf| {

@@ -5,15 +5,17 @@ use std::path::Path;
 
 use evenly::TriangleMesh;
 
-use crate::meshes::ply_text;
+use crate::meshes::ply;
 use crate::text::Shortest;
 use crate::{Error, Target};
 
 /// A format of points in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CloudFormat {
-    /// Stanford's, as text.
+    /// Stanford's, binary.
     Ply,
+    /// Stanford's, as text.
+    PlyText,
     /// Numbers with commas, after a line of names.
     Csv,
     /// Numbers with blanks, after a comment of names.
@@ -51,7 +53,7 @@ pub fn write_cloud(points: &TriangleMesh, format: CloudFormat, recipe: &str, tar
     let recipe = recipe.replace(['\n', '\r'], " ");
     let names = || ["x", "y", "z"].into_iter().chain(points.attributes.iter().map(|attribute| attribute.name.as_str()));
     let text = match format {
-        CloudFormat::Ply => ply_text(points, &recipe),
+        CloudFormat::Ply | CloudFormat::PlyText => return target.write(&ply(points, &recipe, format == CloudFormat::PlyText)),
         CloudFormat::Csv => rows(points, names().collect::<Vec<_>>().join(",") + "\n", ","),
         CloudFormat::Txt => rows(points, format!("# {recipe}\n# {}\n", names().collect::<Vec<_>>().join(" ")), " "),
     };

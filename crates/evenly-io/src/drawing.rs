@@ -57,7 +57,7 @@ impl Drawing {
             Format::Svg => Ok(svg.into_bytes()),
             Format::Png => render::png_of_page(&svg, self.pixels_per_mm(), recipe),
             Format::Pdf => render::pdf_of_page(&svg, recipe),
-            Format::Txt | Format::Csv | Format::Npy => return Err(target.no_figure()),
+            Format::Txt | Format::Csv | Format::Npy | Format::GeoJson => return Err(target.no_figure()),
         };
         target.write(&rendered.map_err(|e| Error::content(target.name(), e))?)
     }

@@ -3,16 +3,36 @@
 use std::ffi::OsStr;
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
-use crate::{Error, Format, npy, text};
+use crate::shapes::read_points_of_map;
+use crate::{Error, Format, Table, npy, table, text};
 
-/// Reads points from a file, or from stdin for `-`. Numpy arrays are known by their first bytes, all else is text.
+/// Reads points from a file, or from stdin for `-`. Numpy arrays and GeoJSON are known by their first bytes, all else is text.
 ///
 /// # Errors
 /// [`Error`] with the file's name, and the line where there is one.
 pub fn read_positions(path: &Path) -> Result<Vec<[f64; 2]>, Error> {
+    Ok(read_table(path)?.positions)
+}
+
+/// Reads points and the other columns of their file, where a first line names them.
+///
+/// # Errors
+/// As [`read_positions`].
+pub fn read_table(path: &Path) -> Result<Table, Error> {
     let (name, bytes) = read_bytes(path)?;
-    if bytes.starts_with(b"\x93NUMPY") { npy::read(&name, &bytes) } else { text::read(&name, &bytes) }
+    let of_points = |positions| Table { positions, ..Table::default() };
+    if bytes.starts_with(b"\x93NUMPY") {
+        return npy::read(&name, &bytes).map(of_points);
+    }
+    if text::plain(&bytes).trim_ascii_start().starts_with(b"{") {
+        return read_points_of_map(&name, &bytes).map(of_points);
+    }
+    match table::read(&name, &bytes)? {
+        Some(table) => Ok(table),
+        None => text::read(&name, &bytes).map(of_points),
+    }
 }
 
 /// Reads three numbers a line from text: a point, and what is said of it.
@@ -59,14 +79,16 @@ impl Target {
     /// # Errors
     /// An unknown ending, a file that exists (unless it may be overwritten), a folder that does not exist or cannot be written.
     pub fn new(path: &Path, format: Option<Format>, may_overwrite: bool) -> Result<Self, Error> {
-        let is_stdout = path == OsStr::new("-");
+        let is_stdout = STDOUT.iter().any(|name| path == OsStr::new(name));
         let format = match format {
             Some(format) => format,
             None if is_stdout => Format::Txt,
             None => Format::of_path(path)?,
         };
-        let target = Self { path: path.to_owned(), format, may_overwrite };
-        if !is_stdout {
+        let target = Self { path: if is_stdout { "-".into() } else { path.to_owned() }, format, may_overwrite };
+        if is_stdout {
+            require_stdout()?;
+        } else {
             target.check_writable()?;
         }
         Ok(target)
@@ -153,6 +175,9 @@ impl Target {
         if self.is_device() {
             return Ok(());
         }
+        if self.path.is_symlink() && !self.path.exists() {
+            return Err(Error::content(self.name(), "this is a link to a file that does not exist"));
+        }
         if !self.may_overwrite && self.path.exists() {
             return Err(Error::Exists(self.name()));
         }
@@ -174,14 +199,15 @@ impl Target {
     }
 
     /// An empty file beside the target, gone when dropped.
-    fn temporary(&self) -> Result<tempfile::NamedTempFile, Error> {
+    fn temporary(&self) -> Result<Temporary, Error> {
         let file = self.file();
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();
         builder.prefix(".evenly-");
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        builder.tempfile_in(folder).map_err(|e| match e.kind() {
+        let made = Temporary::new(|| builder.tempfile_in(folder));
+        made.map_err(|e| match e.kind() {
             std::io::ErrorKind::NotFound => Error::content(self.name(), "its folder does not exist"),
             // The reason alone: the temporary file's own name says nothing to anybody.
             kind => Error::io(&self.name())(kind.into()),
@@ -193,24 +219,92 @@ impl Target {
     /// # Errors
     /// What the operating system says; the target is then as it was before.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Error> {
+        write_together(&[(self, bytes)])
+    }
+
+    /// Writes what can be taken back: `None` for streams, which are written at the end.
+    fn stage(&self, bytes: &[u8]) -> Result<Option<Temporary>, Error> {
+        if self.is_stdout() || self.is_device() {
+            return Ok(None);
+        }
         let name = self.name();
-        if self.is_stdout() {
-            return write_stream(&mut std::io::stdout().lock(), bytes).map_err(Error::io(&name));
-        }
-        if self.is_device() {
-            return write_stream(&mut self.open_device()?, bytes).map_err(Error::io(&name));
-        }
-        let mut file = self.temporary()?;
+        let mut staged = self.temporary()?;
+        let file = &mut staged.file;
         file.write_all(bytes).and_then(|()| file.as_file().sync_all()).map_err(Error::io(&name))?;
         if let Ok(old) = self.file().metadata() {
             file.as_file().set_permissions(old.permissions()).map_err(Error::io(&name))?;
         }
-        let kept = if self.may_overwrite { file.persist(self.file()) } else { file.persist_noclobber(self.file()) };
-        kept.map(drop).map_err(|e| match e.error.kind() {
-            std::io::ErrorKind::AlreadyExists => Error::Exists(name),
-            _ => Error::Io { name, reason: e.error },
-        })
+        Ok(Some(staged))
     }
+
+    fn persist(&self, staged: Option<Temporary>, bytes: &[u8]) -> Result<(), Error> {
+        let name = self.name();
+        match staged {
+            None if self.is_stdout() => write_stream(&mut std::io::stdout().lock(), bytes).map_err(Error::io(&name)),
+            None => write_stream(&mut self.open_device()?, bytes).map_err(Error::io(&name)),
+            Some(staged) => staged.persist(&self.file(), self.may_overwrite).map_err(|e| match e.kind() {
+                std::io::ErrorKind::AlreadyExists => Error::Exists(name),
+                _ => Error::Io { name, reason: e },
+            }),
+        }
+    }
+}
+
+/// Writes several files, all of them or none.
+///
+/// # Errors
+/// As [`Target::write`].
+pub fn write_together(all: &[(&Target, &[u8])]) -> Result<(), Error> {
+    let staged: Vec<Option<Temporary>> = all.iter().map(|(target, bytes)| target.stage(bytes)).collect::<Result<_, _>>()?;
+    all.iter().zip(staged).try_for_each(|((target, bytes), staged)| target.persist(staged, bytes))
+}
+
+/// Names of stdout.
+const STDOUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+
+/// That stdout is open. Where it was closed, the standard library has put a device in its place, open for
+/// reading too.
+fn require_stdout() -> Result<(), Error> {
+    let is_null = std::fs::read_link("/proc/self/fd/1").is_ok_and(|file| file == Path::new("/dev/null"));
+    let flags = std::fs::read_to_string("/proc/self/fdinfo/1").unwrap_or_default();
+    let flags = flags.lines().find_map(|line| u32::from_str_radix(line.strip_prefix("flags:")?.trim(), 8).ok());
+    let is_read = flags.is_some_and(|flags| flags & 3 == 2);
+    if is_null && is_read { Err(Error::content("stdout", "it is closed")) } else { Ok(()) }
+}
+
+/// A file under a name of its own until it is whole.
+struct Temporary {
+    file: tempfile::NamedTempFile,
+}
+
+/// Those that are there now.
+static TEMPORARIES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+impl Temporary {
+    fn new(make: impl FnOnce() -> std::io::Result<tempfile::NamedTempFile>) -> std::io::Result<Self> {
+        let mut all = TEMPORARIES.lock().unwrap_or_else(PoisonError::into_inner);
+        let file = make()?;
+        all.push(file.path().to_owned());
+        Ok(Self { file })
+    }
+
+    fn persist(self, to: &Path, may_overwrite: bool) -> std::io::Result<()> {
+        let from = self.file.path().to_owned();
+        let kept = if may_overwrite { self.file.persist(to) } else { self.file.persist_noclobber(to) };
+        TEMPORARIES.lock().unwrap_or_else(PoisonError::into_inner).retain(|path| *path != from);
+        kept.map(drop).map_err(|e| e.error)
+    }
+}
+
+/// Removes the files that have not got their names yet, for a process that is about to end.
+pub fn discard_temporaries() {
+    // No other is made from here on.
+    let all = TEMPORARIES.lock().unwrap_or_else(PoisonError::into_inner);
+    for path in all.iter() {
+        // It may be gone.
+        let _ = std::fs::remove_file(path);
+    }
+    std::mem::forget(all);
 }
 
 /// Makes a folder, and those that it lies in, where they are missing.

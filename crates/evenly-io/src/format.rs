@@ -13,6 +13,8 @@ pub enum Format {
     Csv,
     /// A numpy array of shape (n, 2), float64.
     Npy,
+    /// A feature a point.
+    GeoJson,
     /// A figure, scalable.
     Svg,
     /// A figure, in pixels.
@@ -23,8 +25,15 @@ pub enum Format {
 
 impl Format {
     /// All formats, by name.
-    pub const ALL: [(&'static str, Self); 6] =
-        [("txt", Self::Txt), ("csv", Self::Csv), ("npy", Self::Npy), ("svg", Self::Svg), ("png", Self::Png), ("pdf", Self::Pdf)];
+    pub const ALL: [(&'static str, Self); 7] = [
+        ("txt", Self::Txt),
+        ("csv", Self::Csv),
+        ("npy", Self::Npy),
+        ("geojson", Self::GeoJson),
+        ("svg", Self::Svg),
+        ("png", Self::Png),
+        ("pdf", Self::Pdf),
+    ];
 
     /// The format that a name stands for.
     pub fn from_name(name: &str) -> Option<Self> {
@@ -43,7 +52,7 @@ impl Format {
 
     /// Whether points can be read back from it.
     pub fn holds_points(self) -> bool {
-        matches!(self, Self::Txt | Self::Csv | Self::Npy)
+        matches!(self, Self::Txt | Self::Csv | Self::Npy | Self::GeoJson)
     }
 
     pub(crate) fn endings(is_good: impl Fn(Self) -> bool) -> String {

@@ -1,4 +1,4 @@
-//! Pictures: PNG, JPEG and TIFF in, PNG out.
+//! Pictures: PNG, JPEG, TIFF, WebP, GIF and BMP in, PNG out.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -10,7 +10,7 @@ use crate::file::read_bytes;
 use crate::pixels::{bytes, colour, encode};
 use crate::{Error, Target};
 
-/// Reads a PNG, JPEG or TIFF, of 8 or 16 bits, grey or in colour; what is transparent lies on white. `-` is stdin.
+/// Reads a PNG, JPEG, TIFF, WebP, GIF or BMP, of 8 or 16 bits, grey or in colour; what is transparent lies on white. `-` is stdin.
 ///
 /// # Errors
 /// [`Error`] with the file's name, for what is no such picture, and for more than [`Image::MOST_PIXELS`].
@@ -24,7 +24,7 @@ pub fn read_image(path: &Path) -> Result<Image, Error> {
 /// A picture's file name for messages, and its pixels as they are meant to be seen.
 pub(crate) fn decode(path: &Path, most_pixels: usize) -> Result<(String, DynamicImage), Error> {
     let (name, bytes) = read_bytes(path)?;
-    let unreadable = |e: image::ImageError| Error::content(&name, format!("not a readable PNG, JPEG or TIFF ({e})"));
+    let unreadable = |e: image::ImageError| Error::content(&name, format!("not a readable PNG, JPEG, TIFF, WebP, GIF or BMP ({e})"));
     if bytes.starts_with(b"\xff\xd8") && !is_whole_jpeg(&bytes) {
         return Err(Error::content(&name, "not a whole JPEG: its end is missing"));
     }

@@ -18,19 +18,23 @@ mod render;
 mod scraps;
 mod shapes;
 mod surfaces;
+mod table;
 mod text;
 
 pub use clouds::{CloudFormat, write_cloud};
 pub use drawing::{Drawing, Layer, Marks};
 pub use error::Error;
 pub use figure::{Axis, Curve, Draw, Subject, chart, compared_svg, figure, picture};
-pub use file::{Target, make_folder, read_numbers, read_positions, read_rows};
+pub use file::{Target, discard_temporaries, make_folder, read_numbers, read_positions, read_rows, read_table, write_together};
 pub use format::Format;
 pub use image::{read_image, write_image};
-pub use meshes::{MeshFormat, mesh_svg, write_mesh, write_polygons};
-pub use output::{write_figure, write_points};
+pub use meshes::{MeshFormat, encode_mesh, encode_polygons, mesh_svg, write_mesh, write_polygons};
+pub use output::{write_figure, write_points, write_table};
 pub use photograph::{Photograph, Tone, luma};
 pub use render::rendered;
 pub use scraps::Scraps;
 pub use shapes::{read_lines, read_polygon, read_regions};
-pub use surfaces::{TrianglesRead, read_triangles, read_triangles_or_points, triangles_svg, write_triangles, write_triangles_figure};
+pub use surfaces::{
+    TrianglesRead, read_triangles, read_triangles_or_points, stl_rounding, triangles_svg, write_triangles, write_triangles_figure,
+};
+pub use table::{Columns, Table};

@@ -4,6 +4,7 @@ mod cells;
 mod msh;
 mod npz;
 mod plain;
+mod ply;
 mod vtu;
 
 use std::fmt::Write as _;
@@ -12,7 +13,9 @@ use std::path::Path;
 use evenly::{Mesh, TriangleMesh};
 
 use self::cells::Cells;
+pub(crate) use self::ply::COLOURS;
 use crate::figure::mesh_figure;
+use crate::text::Shortest;
 use crate::{Error, Target, render};
 
 /// A format of meshes.
@@ -24,8 +27,10 @@ pub enum MeshFormat {
     Vtu,
     /// Wavefront.
     Obj,
-    /// Stanford's, as text.
+    /// Stanford's, binary.
     Ply,
+    /// Stanford's, as text.
+    PlyText,
     /// Geomview's.
     Off,
     /// Stereolithography, binary, in single precision.
@@ -80,13 +85,20 @@ impl MeshFormat {
 /// # Errors
 /// As [`Target::write`].
 pub fn write_mesh(mesh: &Mesh, format: MeshFormat, recipe: &str, target: &Target) -> Result<(), Error> {
+    target.write(&encode_mesh(mesh, format, recipe, target)?)
+}
+
+/// A mesh as it would be written to a target.
+///
+/// # Errors
+/// As [`write_mesh`].
+pub fn encode_mesh(mesh: &Mesh, format: MeshFormat, recipe: &str, target: &Target) -> Result<Vec<u8>, Error> {
     let recipe = recipe.replace(['\n', '\r'], " ");
     let triangles = mesh.triangles.iter().map(|t| t.map(|v| mesh.vertices[v]).to_vec());
-    let bytes = match format {
-        MeshFormat::GeoJson => polygons(triangles, &recipe).into_bytes(),
-        _ => encoded(&mesh.into(), &mesh.vertices, format, &recipe, target, || mesh_figure(mesh, &recipe))?,
-    };
-    target.write(&bytes)
+    match format {
+        MeshFormat::GeoJson => Ok(polygons(triangles, &recipe).into_bytes()),
+        _ => encoded(&mesh.into(), &mesh.vertices, format, &recipe, target, || mesh_figure(mesh, &recipe)),
+    }
 }
 
 /// A mesh in any format but GeoJSON: `vertices` as arrays have them, `draw` for what is drawn.
@@ -103,7 +115,8 @@ pub(crate) fn encoded<const N: usize>(
         MeshFormat::Msh => msh::msh(cells, recipe).into_bytes(),
         MeshFormat::Vtu => vtu::vtu(cells, recipe).into_bytes(),
         MeshFormat::Obj => plain::obj(cells, recipe).into_bytes(),
-        MeshFormat::Ply => plain::ply(cells, recipe).into_bytes(),
+        MeshFormat::Ply => ply::binary(cells, recipe),
+        MeshFormat::PlyText => ply::text(cells, recipe).into_bytes(),
         MeshFormat::Off => plain::off(cells, recipe).into_bytes(),
         MeshFormat::Stl => plain::stl(cells),
         MeshFormat::GeoJson => return Err(Error::content(target.name(), "maps are flat; write a mesh in space as .ply, .obj or .vtu")),
@@ -115,8 +128,9 @@ pub(crate) fn encoded<const N: usize>(
 }
 
 /// Stanford's format, of whatever has vertices.
-pub(crate) fn ply_text(mesh: &TriangleMesh, recipe: &str) -> String {
-    plain::ply(&mesh.into(), recipe)
+pub(crate) fn ply(mesh: &TriangleMesh, recipe: &str, is_text: bool) -> Vec<u8> {
+    let cells = mesh.into();
+    if is_text { ply::text(&cells, recipe).into_bytes() } else { ply::binary(&cells, recipe) }
 }
 
 /// A mesh drawn as SVG.
@@ -129,23 +143,45 @@ pub fn mesh_svg(mesh: &Mesh) -> String {
 /// # Errors
 /// As [`Target::write`].
 pub fn write_polygons(polygons_of: &[Vec<[f64; 2]>], recipe: &str, target: &Target) -> Result<(), Error> {
-    target.write(polygons(polygons_of.iter().cloned(), recipe).as_bytes())
+    target.write(&encode_polygons(polygons_of, recipe))
+}
+
+/// Polygons as GeoJSON, a feature each.
+pub fn encode_polygons(polygons_of: &[Vec<[f64; 2]>], recipe: &str) -> Vec<u8> {
+    polygons(polygons_of.iter().cloned(), recipe).into_bytes()
 }
 
 /// A feature a polygon.
 fn polygons(all: impl Iterator<Item = Vec<[f64; 2]>>, recipe: &str) -> String {
-    let mut text = format!("{{\"type\":\"FeatureCollection\",\"generator\":{},\"features\":[", serde_json::Value::from(recipe));
-    for (k, polygon) in all.enumerate() {
-        let comma = if k > 0 { "," } else { "" };
-        let _ = write!(
-            text,
-            "{comma}\n{{\"type\":\"Feature\",\"properties\":{{\"index\":{k}}},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[["
-        );
-        for [x, y] in polygon.iter().chain(polygon.first()) {
-            let _ = write!(text, "[{x},{y}],");
+    features(all, recipe, "Polygon", |text, polygon| {
+        text.push_str("[[");
+        for (k, &p) in polygon.iter().chain(polygon.first()).enumerate() {
+            text.push_str(if k > 0 { "," } else { "" });
+            push_place(text, p);
         }
-        text.pop();
-        text.push_str("]]}}");
+        text.push_str("]]");
+    })
+}
+
+/// A feature a point.
+pub(crate) fn map_of_points(points: &[[f64; 2]], recipe: &str) -> String {
+    features(points.iter().copied(), recipe, "Point", push_place)
+}
+
+fn push_place(text: &mut String, [x, y]: [f64; 2]) {
+    let _ = write!(text, "[{},{}]", Shortest(x), Shortest(y));
+}
+
+/// GeoJSON with a feature for each geometry of one kind; `push` writes its coordinates.
+fn features<T>(all: impl Iterator<Item = T>, recipe: &str, kind: &str, push: impl Fn(&mut String, T)) -> String {
+    let mut text = format!("{{\"type\":\"FeatureCollection\",\"generator\":{},\"features\":[", serde_json::Value::from(recipe));
+    for (k, geometry) in all.enumerate() {
+        let comma = if k > 0 { "," } else { "" };
+        let properties = format!("{{\"index\":{k}}}");
+        let _ =
+            write!(text, "{comma}\n{{\"type\":\"Feature\",\"properties\":{properties},\"geometry\":{{\"type\":\"{kind}\",\"coordinates\":");
+        push(&mut text, geometry);
+        text.push_str("}}");
     }
     text.push_str("\n]}\n");
     text

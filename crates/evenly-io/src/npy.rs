@@ -4,7 +4,7 @@ use npyz::{NpyFile, Order, WriterBuilder as _};
 
 use crate::Error;
 
-/// Reads points from the bytes of the `.npy` file `name`: float64 or float32, either order.
+/// Reads points from the bytes of the `.npy` file `name`: floats and integers, either order.
 pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
     let problem = |text: String| Error::content(name, text);
     let file = NpyFile::new(bytes).map_err(|e| problem(format!("this is no .npy file: {e}")))?;
@@ -20,12 +20,23 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
     let order = file.order();
     let kind = file.dtype().descr();
     let cut_short = |e: std::io::Error| problem(format!("it cannot be read to its end: {e}"));
-    let numbers: Vec<f64> = if kind.contains("f8") {
-        file.into_vec::<f64>().map_err(cut_short)?
-    } else if kind.contains("f4") {
-        file.into_vec::<f32>().map_err(cut_short)?.into_iter().map(f64::from).collect()
-    } else {
-        return Err(problem(format!("its numbers are {kind}, expected float64 or float32")));
+    macro_rules! numbers {
+        ($of:ty) => {
+            file.into_vec::<$of>().map_err(cut_short)?.into_iter().map(|number| number as f64).collect()
+        };
+    }
+    let numbers: Vec<f64> = match kind.trim_matches(|c: char| !c.is_ascii_alphanumeric()) {
+        "f8" => numbers!(f64),
+        "f4" => numbers!(f32),
+        "i8" => numbers!(i64),
+        "i4" => numbers!(i32),
+        "i2" => numbers!(i16),
+        "i1" => numbers!(i8),
+        "u8" => numbers!(u64),
+        "u4" => numbers!(u32),
+        "u2" => numbers!(u16),
+        "u1" => numbers!(u8),
+        _ => return Err(problem(format!("its numbers are {kind}, expected floats or integers of 8 to 64 bits"))),
     };
     let points: Vec<[f64; 2]> = match order {
         Order::C => numbers.chunks_exact(2).map(|row| [row[0], row[1]]).collect(),

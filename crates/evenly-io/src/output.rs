@@ -3,7 +3,8 @@
 use evenly::PointSet;
 
 use crate::figure::{Draw, Subject, figure};
-use crate::{Error, Format, Target, npy, render, text};
+use crate::meshes::map_of_points;
+use crate::{Columns, Error, Format, Target, npy, render, text};
 
 /// Writes points, or a figure of them, as the target's format has it. The recipe goes along where the format has room for a comment.
 ///
@@ -15,9 +16,21 @@ pub fn write_points(points: &PointSet, draw: &[Draw], recipe: &str, target: &Tar
         Format::Txt => text::write_txt(positions, recipe).into_bytes(),
         Format::Csv => text::write_csv(positions).into_bytes(),
         Format::Npy => npy::write(positions).map_err(Error::io(&target.name()))?,
+        Format::GeoJson => map_of_points(positions, recipe).into_bytes(),
         Format::Svg | Format::Png | Format::Pdf => return write_figure(&points.into(), draw, recipe, target),
     };
     target.write(&bytes)
+}
+
+/// Writes points as [`write_points`], in `.csv` with the other columns of the file that they come from: a row a point.
+///
+/// # Errors
+/// As [`write_points`].
+pub fn write_table(points: &PointSet, columns: &Columns, draw: &[Draw], recipe: &str, target: &Target) -> Result<(), Error> {
+    if target.format() != Format::Csv || columns.is_empty() {
+        return write_points(points, draw, recipe, target);
+    }
+    target.write(&columns.csv(points.positions()))
 }
 
 /// Writes a figure. The recipe goes along as a comment.
@@ -34,7 +47,7 @@ pub(crate) fn write_svg(svg: String, recipe: &str, target: &Target) -> Result<()
         Format::Png => render::png(&svg, recipe),
         Format::Pdf => render::pdf(&svg, recipe),
         Format::Svg => Ok(svg.into_bytes()),
-        Format::Txt | Format::Csv | Format::Npy => {
+        Format::Txt | Format::Csv | Format::Npy | Format::GeoJson => {
             return Err(target.no_figure());
         }
     };

@@ -12,6 +12,7 @@ use evenly::{Polygon, Shape};
 
 use crate::Error;
 use crate::file::read_bytes;
+use crate::text::plain;
 
 /// A ring or a line: points.
 type Points = Vec<[f64; 2]>;
@@ -26,6 +27,7 @@ struct Shapes {
     /// What is filled, where parts are not told apart.
     filled: Vec<Shape>,
     lines: Vec<Points>,
+    points: Points,
     /// Whether rings have come as text, where each may be anything.
     is_plain: bool,
     /// Whether coordinates are longitudes and latitudes, as those of GeoJSON are.
@@ -95,6 +97,12 @@ pub fn read_lines(path: &Path) -> Result<Vec<Vec<[f64; 2]>>, Error> {
     Ok(lines)
 }
 
+/// The points of GeoJSON, in the file `name`.
+pub(crate) fn read_points_of_map(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
+    let Shapes { points, .. } = parse(name, bytes, None)?;
+    if points.is_empty() { Err(Error::content(name, "there are no points in it")) } else { Ok(points) }
+}
+
 /// Ends a ring where it begins.
 fn close(ring: &mut Points) {
     if ring.first() != ring.last() {
@@ -110,7 +118,8 @@ fn read(path: &Path, tolerance: Option<f64>) -> Result<(String, Shapes), Error> 
 
 fn parse(name: &str, bytes: &[u8], tolerance: Option<f64>) -> Result<Shapes, Error> {
     let no_text = || Error::content(name, "this is not text; polygons are read from GeoJSON, WKT, SVG, and rings as text");
-    let whole = std::str::from_utf8(bytes).map_err(|_| no_text())?.trim_start_matches('\u{feff}');
+    let bytes = plain(bytes);
+    let whole = std::str::from_utf8(&bytes).map_err(|_| no_text())?.trim_start_matches('\u{feff}');
     let text = whole.trim_start();
     let problem = |text: String| Error::content(name, text);
     match text.chars().next() {
@@ -236,6 +245,11 @@ mod tests {
     #[test]
     fn what_cannot_be_read_is_said() {
         assert!(message("0 0\n1\n").contains("p:2"));
+        assert_eq!(
+            read_points_of_map("p", b"{\"type\":\"MultiPoint\",\"coordinates\":[[1,2],[3,4,9]]}").unwrap(),
+            [[1.0, 2.0], [3.0, 4.0]]
+        );
+        assert!(read_points_of_map("p", b"{\"type\":\"LineString\",\"coordinates\":[[1,2],[3,4]]}").is_err());
         assert!(message("{\"type\":\"Nonsense\"}").starts_with("p: "));
         assert!(message("POLYGON ((0 0").starts_with("p: "));
         assert!(message("<svg").starts_with("p: "));
@@ -244,7 +258,7 @@ mod tests {
         assert!(message("POLYGON((0 0,1 0,1 1,0 0)) POLYGON((0 0,1 0,1 1,0 0))").contains("GEOMETRYCOLLECTION"));
         assert!(message(&"GEOMETRYCOLLECTION(".repeat(100_000)).contains("deep"));
         assert!(message(&format!("<svg>{}</svg>", "<g>".repeat(3000) + &"</g>".repeat(3000))).contains("deep"));
-        assert!(parse("p", &[0xff, 0xfe, 0x00], None).unwrap_err().to_string().contains("not text"));
+        assert!(parse("p", &[0xff, 0x00, 0xfe], None).unwrap_err().to_string().contains("not text"));
     }
 
     proptest! {

@@ -6,8 +6,10 @@ mod lines;
 mod obj;
 mod off;
 mod ply;
+mod polygons;
 mod stl;
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use evenly::TriangleMesh;
@@ -62,7 +64,8 @@ pub fn read_triangles(path: &Path) -> Result<TrianglesRead, Error> {
 pub fn read_triangles_or_points(path: &Path) -> Result<TrianglesRead, Error> {
     let (name, bytes) = read_bytes(path)?;
     let read = match kind_of(path, &bytes) {
-        Some(Kind::Ply) => ply::read(&name, &bytes, true)?,
+        Some(Kind::Ply) if ply::is_binary(&bytes) => ply::read(&name, &bytes, true)?,
+        Some(Kind::Ply) => ply::read(&name, &text::plain(&bytes), true)?,
         Some(kind) => parse(kind, &name, &bytes, folder_of(path))?,
         None if !holds_text(path) => {
             let choices = [".csv", ".txt"].into_iter().map(str::to_owned).chain(ENDINGS.iter().map(|(name, _)| format!(".{name}")));
@@ -97,7 +100,8 @@ fn folder_of(path: &Path) -> &Path {
 
 /// The format that the first bytes tell.
 fn evident(bytes: &[u8]) -> Option<Kind> {
-    let first = lines::Text::new("", bytes).next_line().and_then(|mut line| line.word()).unwrap_or_default();
+    let text = if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") { text::plain(bytes) } else { Cow::Borrowed(bytes) };
+    let first = lines::Text::new("", &text).next_line().and_then(|mut line| line.word()).unwrap_or_default();
     match first {
         b"ply" => Some(Kind::Ply),
         b"solid" => Some(Kind::Stl),
@@ -111,6 +115,9 @@ fn evident(bytes: &[u8]) -> Option<Kind> {
 
 /// `folder` is where other files lie that this one names.
 fn parse(kind: Kind, name: &str, bytes: &[u8], folder: &Path) -> Result<TrianglesRead, Error> {
+    let is_binary = bytes.starts_with(b"glTF") || stl::is_binary(bytes) || ply::is_binary(bytes);
+    let text = if is_binary { Cow::Borrowed(bytes) } else { text::plain(bytes) };
+    let bytes = &*text;
     match kind {
         Kind::Obj => obj::read(name, bytes),
         Kind::Ply => ply::read(name, bytes, false),
@@ -126,9 +133,35 @@ fn parse(kind: Kind, name: &str, bytes: &[u8], folder: &Path) -> Result<Triangle
 /// As [`Target::write`]; for GeoJSON, which is flat, and for a mesh whose parts do not fit together.
 pub fn write_triangles(mesh: &TriangleMesh, format: MeshFormat, recipe: &str, target: &Target) -> Result<(), Error> {
     check(mesh).map_err(|problem| Error::content(target.name(), problem))?;
+    let is_too_large = |x: &f64| x.abs() > f64::from(f32::MAX);
+    if format == MeshFormat::Stl && mesh.vertices.iter().flatten().any(is_too_large) {
+        return Err(Error::content(target.name(), "STL has no numbers above 3.4e38; write .ply or .obj"));
+    }
     let recipe = recipe.replace(['\n', '\r'], " ");
     let bytes = encoded(&mesh.into(), &mesh.vertices, format, &recipe, target, || shaded_figure(mesh, &recipe))?;
     target.write(&bytes)
+}
+
+/// What the single precision of STL does to a mesh, in words for the user, if it is much: more than a thousandth of its shortest edge.
+pub fn stl_rounding(mesh: &TriangleMesh) -> Option<String> {
+    let rounded = |p: &[f64; 3]| p.map(|x| f64::from(x as f32));
+    let length = |p: &[f64; 3], q: &[f64; 3]| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+    let farthest = mesh.vertices.iter().map(|p| length(p, &rounded(p))).fold(0.0, f64::max);
+    let sides = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+    let edges = mesh.triangles.iter().flat_map(sides);
+    let shortest = edges.map(|[a, b]| length(&mesh.vertices[a], &mesh.vertices[b])).fold(f64::INFINITY, f64::min);
+    if farthest <= 1e-3 * shortest {
+        return None;
+    }
+    let area = |t: &&[usize; 3]| {
+        let [a, b, c] = t.map(|v| rounded(&mesh.vertices[v]));
+        let (u, v) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
+        [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]].iter().all(|&x| x == 0.0)
+    };
+    let n_flat = mesh.triangles.iter().filter(area).count();
+    Some(format!(
+        "STL has seven digits: positions are rounded by up to {farthest:.1e}, and {n_flat} triangles lose their area; write .ply or .obj, or move the mesh nearer to 0"
+    ))
 }
 
 /// Draws meshes, shaded, side by side under their captions where there are several. The recipe goes along as a comment.

@@ -3,14 +3,30 @@
 //! Read are spaces, tabs, commas and semicolons between numbers, blank lines, `#` comments, a first line with the count, and a first
 //! line of names.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use crate::Error;
 
+/// Text in UTF-8 with a line feed after each line, of UTF-16 and of old Macs too.
+pub(crate) fn plain(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let units = |of: fn([u8; 2]) -> u16| bytes[2..].chunks_exact(2).map(|pair| of([pair[0], pair[1]])).collect::<Vec<u16>>();
+    let mut text = match bytes {
+        [0xff, 0xfe, ..] => Cow::Owned(String::from_utf16_lossy(&units(u16::from_le_bytes)).into_bytes()),
+        [0xfe, 0xff, ..] => Cow::Owned(String::from_utf16_lossy(&units(u16::from_be_bytes)).into_bytes()),
+        _ => Cow::Borrowed(bytes),
+    };
+    if text.contains(&b'\r') && !text.contains(&b'\n') {
+        text.to_mut().iter_mut().filter(|c| **c == b'\r').for_each(|c| *c = b'\n');
+    }
+    text
+}
+
 /// Reads points from the text of file `name`.
 pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
-    let text =
-        std::str::from_utf8(bytes).map_err(|_| Error::content(name, "this is not text; points are read from .txt, .csv and .npy"))?;
+    let bytes = plain(bytes);
+    let no_text = |_| Error::content(name, "this is not text; points are read from .txt, .csv, .npy and .geojson");
+    let text = std::str::from_utf8(&bytes).map_err(no_text)?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut points = Vec::new();
     let mut count: Option<usize> = None;
@@ -37,7 +53,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
                 return Err(Error::content(at(), format!("{n} number{plural}, expected 2 (x y)")));
             }
             // A line of names.
-            (Err(_), rest) if was_first && !is_number(first) && !rest.iter().any(|field| is_number(field)) => {}
+            (Err(_), rest) if was_first && is_name(first) && rest.iter().all(|field| is_name(field)) => {}
             (Err(problem), _) => return Err(Error::content(at(), problem)),
         }
     }
@@ -71,7 +87,8 @@ pub(crate) fn read_line<const N: usize>(place: &str, line: &str) -> Result<Optio
 
 /// Reads so many numbers a line.
 pub(crate) fn read_rows<const N: usize>(name: &str, bytes: &[u8]) -> Result<Vec<[f64; N]>, Error> {
-    let text = std::str::from_utf8(bytes).map_err(|_| Error::content(name, "this is not text"))?;
+    let bytes = plain(bytes);
+    let text = std::str::from_utf8(&bytes).map_err(|_| Error::content(name, "this is not text"))?;
     let lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
     let rows = lines.filter_map(|(number, line)| read_line(&format!("{name}:{number}"), line).transpose());
     let rows: Vec<[f64; N]> = rows.collect::<Result<_, _>>()?;
@@ -80,7 +97,8 @@ pub(crate) fn read_rows<const N: usize>(name: &str, bytes: &[u8]) -> Result<Vec<
 
 /// Reads the first three numbers of each line, after a first line of names if there is one.
 pub(crate) fn read_xyz(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Error> {
-    let text = std::str::from_utf8(bytes).map_err(|_| Error::content(name, "this is neither text nor a mesh"))?;
+    let bytes = plain(bytes);
+    let text = std::str::from_utf8(&bytes).map_err(|_| Error::content(name, "this is neither text nor a mesh"))?;
     let lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
     let mut rows = Vec::new();
     let mut is_first = true;
@@ -104,6 +122,11 @@ pub(crate) fn read_xyz(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Error>
 
 fn is_separator(c: char) -> bool {
     c.is_whitespace() || matches!(c, ',' | ';' | '"')
+}
+
+/// Whether a word can be the name of a column: none that was meant to be a number.
+pub(crate) fn is_name(field: &str) -> bool {
+    !is_number(field) && !field.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
 }
 
 /// Whether a word stands for a number, finite or not.
@@ -176,8 +199,11 @@ mod tests {
             "\u{feff}\"x\";\"y\"\n1;2\n-3.5;0.004",
             "\"1\",\"2\"\n\"-3.5\",\"0.004\"",
             "\t1\t2 # the first\n\n -3.5  +4E-3",
+            "x y\r1 2\r-3.5 0.004\r",
         ] {
             assert_eq!(read("p.txt", text.as_bytes()).unwrap(), expected, "{text:?}");
+            let wide: Vec<u8> = "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(u16::to_be_bytes).collect();
+            assert_eq!(read("p.txt", &wide).unwrap(), expected, "{text:?}");
         }
     }
 
@@ -196,7 +222,9 @@ mod tests {
         assert_eq!(message("3\n1 2\n"), "p.txt: its first line promises 3 points, but there are 1");
         assert_eq!(message(""), "p.txt: there are no points in it");
         assert_eq!(message("# nothing\n"), "p.txt: there are no points in it");
-        assert!(read("p", &[0xff, 0xfe, 0]).unwrap_err().to_string().contains("not text"));
+        assert_eq!(message("1d-1 2d-1\n1 2\n"), "p.txt:1: '1d-1' is not a number");
+        assert_eq!(message("0x1 0x2\n1 2\n"), "p.txt:1: '0x1' is not a number");
+        assert!(read("p", &[0xff, 0, 0xfe]).unwrap_err().to_string().contains("not text"));
     }
 
     proptest! {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use evenly::{Attribute, Outcome, Surface, SurfacePoint, SurfaceSizing, TriangleMesh};
-use evenly_cli::remeshed::{self, place_attributes, remeshed, surface_of};
+use evenly_cli::remeshed::{self, notes_on, place_attributes, remeshed, surface_of, welded};
 use evenly_cli::sampled::{self, sampled};
 use evenly_io::{MeshFormat, Target, read_triangles};
 use pyo3::prelude::*;
@@ -39,7 +39,7 @@ impl Shape<'_> {
 /// A surface, and all notes on it.
 fn surface(mesh: &TriangleMesh, name: &Path, is_repaired: bool, notes: &mut Vec<String>) -> anyhow::Result<Surface> {
     let surface = surface_of(mesh, name, is_repaired)?;
-    notes.extend(surface.notes().iter().cloned());
+    notes.extend(notes_on(&surface));
     Ok(surface)
 }
 
@@ -68,6 +68,7 @@ pub fn remesh(
     let points = points.map(|points| rows(&points)).transpose()?;
     run(py, Terms { threads, callback }, move |context, _| {
         let wishes = remeshed::wishes(&words)?;
+        let mesh = welded(mesh, wishes.weld, &mut notes)?;
         let surface = surface(&mesh, &name, wishes.repair, &mut notes)?;
         let sizing = match sizes {
             Some(sizes) => Some(SurfaceSizing::Given(sizes)),
@@ -103,6 +104,7 @@ pub fn sample(py: Python, shape: Shape, words: Vec<String>, threads: Option<usiz
     let (mesh, name, mut notes) = shape.mesh(py)?;
     run(py, Terms { threads, callback }, move |context, _| {
         let wishes = sampled::wishes(&words)?;
+        let mesh = welded(mesh, wishes.weld, &mut notes)?;
         let surface = surface(&mesh, &name, wishes.repair, &mut notes)?;
         let (places, report) = sampled(&surface, &name, &wishes, context)?;
         notes.extend(report.notes.iter().cloned());

@@ -37,7 +37,7 @@ pub fn run(args: &Analyze) -> anyhow::Result<u8> {
     let read = |path: &PathBuf| Ok(args.metric.applied(input::read_and_tell(path, &space)?.with_density(&density))?);
     let sets: Vec<PointSet> = args.inputs.iter().map(read).collect::<anyhow::Result<_>>()?;
     let is_local = args.local || args.density.is_given();
-    let pool = session::pool(args.measured.threads)?;
+    let pool = session::pool(args.measured.threads, false)?;
     let names = || args.inputs.iter().map(|path| path.display().to_string());
     let measured = names().zip(&sets).map(|(name, points)| Ok((name.clone(), pool.install(|| measure(points)).context(name)?)));
     let measured: Vec<(String, Measures)> = measured.collect::<anyhow::Result<_>>()?;

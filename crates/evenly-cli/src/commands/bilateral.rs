@@ -19,7 +19,7 @@ pub fn run(args: &Bilateral) -> anyhow::Result<u8> {
     let image = read_image(&args.input)?;
     let samples = input::read_and_tell(&args.samples, &args.space.space()?)?;
     let params = BilateralParams { kernel_px: args.kernel, range: args.range, n_samples: args.count };
-    let pool = session::pool(args.measured.threads)?;
+    let pool = session::pool(args.measured.threads, false)?;
     let told = |e| measured::told(e, &args.samples, &[("kernel_px", "kernel"), ("n_samples", "count")]);
     let few = pool.install(|| subsampled_bilateral(&image, &samples, &params)).map_err(told)?;
     let all = pool.install(|| bilateral(&image, &params))?;

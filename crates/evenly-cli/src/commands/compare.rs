@@ -50,9 +50,9 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<u8> {
     }
     let start = args.start.unwrap_or(Method::Procrustes.default_start(&space, false));
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet)?;
+    interrupt::cancels(&cancel, args.run.quiet);
     let runner = Runner { args, space, n_points, start, given, cancel };
-    let pool = session::pool(args.run.threads)?;
+    let pool = session::pool(args.run.threads, args.run.quiet)?;
     let is_drawn = matches!(output, Some((Kind::Html, _)));
     let comparison = pool.install(|| runner.compare(&methods, is_drawn))?;
     if comparison.columns.is_empty() {
@@ -63,7 +63,7 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<u8> {
         Some((kind, target)) => target.write(text(*kind)?.as_bytes())?,
         None => Target::any("-".as_ref(), false)?.write(text(Kind::Text)?.as_bytes())?,
     }
-    Ok(if runner.cancel.is_cancelled() { interrupt::CODE } else { session::DONE })
+    Ok(if runner.cancel.is_cancelled() { interrupt::code() } else { session::DONE })
 }
 
 struct Runner<'a> {

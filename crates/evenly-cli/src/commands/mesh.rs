@@ -4,7 +4,9 @@ use std::time::Instant;
 
 use anyhow::bail;
 use evenly::{CancelToken, MeshQuality, MeshRegion, Report, RunContext, mesh_cells};
-use evenly_io::{MeshFormat, Target, read_lines, read_polygon, read_positions, read_regions, read_rows, write_mesh, write_polygons};
+use evenly_io::{
+    MeshFormat, Target, encode_mesh, encode_polygons, read_lines, read_polygon, read_positions, read_regions, read_rows, write_together,
+};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -26,7 +28,7 @@ pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     if let Some(tolerance) = args.curve_tolerance.filter(|&tolerance| !(tolerance > 0.0 && tolerance.is_finite())) {
         bail!("--curve-tolerance is {tolerance}; it must be positive and finite");
     }
-    let pool = session::pool(args.run.threads)?;
+    let pool = session::pool(args.run.threads, args.run.quiet)?;
     if args.regions && wishes.simplify.is_some() {
         bail!("--simplify would part regions that touch; simplify them before, or leave out --regions");
     }
@@ -47,7 +49,7 @@ pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     let names =
         Names { polygon: &args.input, fixed: args.fixed.as_ref().unwrap_or(&nameless), lines: args.lines.as_ref().unwrap_or(&nameless) };
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet)?;
+    interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
@@ -58,9 +60,10 @@ pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     notes.extend(report.notes.iter().cloned());
 
     let recipe = record::recipe(Some(wishes.seed));
-    write_mesh(&mesh, targets.format, &recipe, &targets.mesh)?;
-    if let Some(cells) = &targets.cells {
-        write_polygons(&mesh_cells(&mesh), &recipe, cells)?;
+    let of_mesh = encode_mesh(&mesh, targets.format, &recipe, &targets.mesh)?;
+    match &targets.cells {
+        Some(cells) => write_together(&[(cells, &encode_polygons(&mesh_cells(&mesh), &recipe)), (&targets.mesh, &of_mesh)])?,
+        None => targets.mesh.write(&of_mesh)?,
     }
     let seconds = begin.elapsed().as_secs_f64();
     let record = MeshRecord {
@@ -87,7 +90,7 @@ pub fn run(args: &Mesh) -> anyhow::Result<u8> {
         Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
     }
     Ok(match () {
-        () if cancel.is_cancelled() => interrupt::CODE,
+        () if cancel.is_cancelled() => interrupt::code(),
         () if !missed.is_empty() => session::NOT_REACHED,
         () => session::DONE,
     })
@@ -109,6 +112,11 @@ impl Targets {
             Some(format) => format,
             None if mesh.is_stdout() => MeshFormat::Msh,
             None => MeshFormat::of_path(&args.output)?,
+        };
+        let format = match (args.ascii, format) {
+            (true, MeshFormat::Ply) => MeshFormat::PlyText,
+            (true, _) => bail!("--ascii is for .ply, which is else binary"),
+            (false, format) => format,
         };
         if args.json && mesh.is_stdout() {
             bail!("--json and the mesh cannot both go to stdout; name a file with -o, or with --report");

@@ -1,21 +1,30 @@
 //! `evenly optimize`: better points from points.
 
+use anyhow::bail;
 use clap::ArgMatches;
 use evenly::warp;
 
 use crate::args::Optimize;
 use crate::input;
-use crate::method::refuse_others_flags;
+use crate::method::{Method, refuse_others_flags};
 use crate::session::Session;
 
 pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<u8> {
     refuse_others_flags(&[args.method], flags)?;
     let space = args.space.space()?;
+    if args.method == Method::Warp && space.region().is_some() {
+        bail!("--method warp moves points by a rectangle's sides; in a polygon it would do nothing");
+    }
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, None)?;
     input::require_one_stdin(std::iter::once(&args.input).chain(args.density.path()).chain(args.space.path()).chain(args.fixed.path()))?;
     let fixed = args.fixed.points(space.clone())?;
-    let (points, note) = session.time("read", || input::read(&args.input, &space))?;
+    let (points, note, columns) = session.time("read", || input::read_with_columns(&args.input, &space))?;
+    if fixed.n_points() == 0 {
+        session.columns = columns;
+    } else if !columns.is_empty() {
+        session.note(format!("the columns {} are left out: with --fixed rows have other places", columns.names.join(", ")));
+    }
     let points = input::joined(&fixed, points)?;
     let given = points.with_density(&session.time("read", || args.density.density())?);
     let mut points = args.metric.applied(given.clone())?;

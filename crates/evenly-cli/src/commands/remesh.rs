@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use anyhow::bail;
 use evenly::{CancelToken, CertificateBreach, Outcome, Report, RunContext, SurfaceDistance, SurfaceQuality};
-use evenly_io::{MeshFormat, Target, read_triangles, write_triangles, write_triangles_figure};
+use evenly_io::{MeshFormat, Target, read_triangles, stl_rounding, write_triangles, write_triangles_figure};
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::remesh_args::Remesh;
-use crate::remeshed::{Made, points, remeshed, sizing, surface_of, with_places};
+use crate::remeshed::{Made, notes_on, points, remeshed, sizing, surface_of, welded, with_places};
 use crate::talk::say;
 use crate::{input, interrupt, record, session};
 
@@ -23,14 +23,15 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let wishes = &args.wishes;
     let density: Option<PathBuf> = wishes.density_path().map(Into::into);
     input::require_one_stdin([Some(&args.input), density.as_ref(), wishes.points.as_ref()].into_iter().flatten())?;
-    let pool = session::pool(args.run.threads)?;
+    let pool = session::pool(args.run.threads, args.run.quiet)?;
     let read = read_triangles(&args.input)?;
-    let surface = surface_of(&read.mesh, &args.input, wishes.repair)?;
-    let mut notes: Vec<String> = read.notes.iter().chain(surface.notes()).cloned().collect();
+    let mut notes = read.notes;
+    let surface = surface_of(&welded(read.mesh, wishes.weld, &mut notes)?, &args.input, wishes.repair)?;
+    notes.extend(notes_on(&surface));
 
     let (sizing, points) = (sizing(wishes)?, points(wishes)?);
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet)?;
+    interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
@@ -40,6 +41,9 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let Made { remeshed, quality, distance, self_intersections, breaches, report, parameters } = made?;
     notes.extend(report.notes.iter().cloned());
 
+    if targets.format == MeshFormat::Stl {
+        notes.extend(stl_rounding(&remeshed.mesh));
+    }
     let recipe = record::recipe(Some(wishes.seed));
     write_triangles(&with_places(&remeshed), targets.format, &recipe, &targets.mesh)?;
     if let Some(plot) = &targets.plot {
@@ -70,7 +74,7 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
         Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
     }
     Ok(match () {
-        () if cancel.is_cancelled() => interrupt::CODE,
+        () if cancel.is_cancelled() => interrupt::code(),
         () if has_missed => session::NOT_REACHED,
         () => session::DONE,
     })
@@ -92,6 +96,11 @@ impl Targets {
             Some(format) => format,
             None if mesh.is_stdout() => MeshFormat::Ply,
             None => MeshFormat::of_path(&args.output)?,
+        };
+        let format = match (args.ascii, format) {
+            (true, MeshFormat::Ply) => MeshFormat::PlyText,
+            (true, _) => bail!("--ascii is for .ply, which is else binary"),
+            (false, format) => format,
         };
         if format == MeshFormat::GeoJson {
             bail!("GeoJSON is flat; a surface goes into .ply .obj .off .stl .vtu .msh or .npz");

@@ -25,16 +25,16 @@ pub fn run(args: &Reproduce) -> anyhow::Result<u8> {
         say(format_args!("going on where an earlier run was interrupted; --force begins anew"));
     }
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet)?;
+    interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, study.parts.len() as u64, "{prefix} [{bar:20}] {pos} of {len} parts, {elapsed}: {msg}");
     bar.enable_steady_tick(std::time::Duration::from_millis(200));
     let lab = Lab { is_quick: args.quick, cancel, bar, models: args.models.clone() };
-    let pool = session::pool(args.run.threads)?;
+    let pool = session::pool(args.run.threads, args.run.quiet)?;
     let done = pool.install(|| study.run(&lab, &scraps))?;
     lab.bar.finish_and_clear();
     if done.is_empty() {
         say("no part is done, so there is nothing to show");
-        return Ok(interrupt::CODE);
+        return Ok(interrupt::code());
     }
     page.write(html(study, &done, args.quick).as_bytes())?;
     let parts: Vec<&Done> = done.iter().collect();
@@ -46,7 +46,7 @@ pub fn run(args: &Reproduce) -> anyhow::Result<u8> {
             done.len(),
             study.parts.len()
         ));
-        return Ok(interrupt::CODE);
+        return Ok(interrupt::code());
     }
     scraps.clear()?;
     if !args.run.quiet {

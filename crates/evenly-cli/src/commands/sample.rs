@@ -8,7 +8,7 @@ use evenly_io::{CloudFormat, Target, read_triangles, write_cloud};
 use serde::Serialize;
 
 use crate::remesh_args::Sample;
-use crate::remeshed::{place_attributes, surface_of};
+use crate::remeshed::{notes_on, place_attributes, surface_of, welded};
 use crate::sampled::sampled;
 use crate::talk::say;
 use crate::{interrupt, record, session};
@@ -21,15 +21,23 @@ pub fn run(args: &Sample) -> anyhow::Result<u8> {
         None if target.is_stdout() => CloudFormat::Txt,
         None => CloudFormat::of_path(&args.output)?,
     };
+    let format = match (args.ascii, format) {
+        (true, CloudFormat::Ply) => CloudFormat::PlyText,
+        (true, _) => bail!("--ascii is for .ply, which is else binary"),
+        (false, format) => format,
+    };
     if args.json && target.is_stdout() {
         bail!("--json and the points cannot both go to stdout; name a file with -o");
     }
     let wishes = &args.wishes;
-    let pool = session::pool(args.run.threads)?;
+    let pool = session::pool(args.run.threads, args.run.quiet)?;
     let read = read_triangles(&args.input)?;
-    let surface = surface_of(&read.mesh, &args.input, wishes.repair)?;
+    let mut notes = read.notes;
+    let mesh = welded(read.mesh, wishes.weld, &mut notes)?;
+    // Points need no manifold.
+    let surface = surface_of(&mesh, &args.input, wishes.repair).or_else(|_| surface_of(&mesh, &args.input, true))?;
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet)?;
+    interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
@@ -41,7 +49,8 @@ pub fn run(args: &Sample) -> anyhow::Result<u8> {
     let vertices = points.iter().map(|point| point.position).collect();
     let cloud = TriangleMesh { vertices, triangles: Vec::new(), attributes: place_attributes(&points) };
     write_cloud(&cloud, format, &record::recipe(Some(wishes.seed)), &target)?;
-    let notes: Vec<String> = read.notes.iter().chain(surface.notes()).chain(&report.notes).cloned().collect();
+    notes.extend(notes_on(&surface));
+    notes.extend(report.notes.iter().cloned());
     let record = SampleRecord {
         version: record::VERSION,
         command: record::command(),
@@ -62,7 +71,7 @@ pub fn run(args: &Sample) -> anyhow::Result<u8> {
         Target::any("-".as_ref(), false)?.write((serde_json::to_string_pretty(&record)? + "\n").as_bytes())?;
     }
     Ok(match record.run.outcome {
-        _ if cancel.is_cancelled() => interrupt::CODE,
+        _ if cancel.is_cancelled() => interrupt::code(),
         Outcome::IterationLimit => session::NOT_REACHED,
         _ => session::DONE,
     })

@@ -30,7 +30,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     let tone = args.tone.tone()?;
     // For bad usage, before a long read.
     optimizer(args.method, args.iterations, args.seed)?;
-    let pool = session::pool(args.run.threads)?;
+    let pool = session::pool(args.run.threads, args.run.quiet)?;
     let photograph = Photograph::read(&args.input)?;
     let name = photograph.name();
     let picture_px = photograph.size();
@@ -39,7 +39,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     let inks = Ink::of(&photograph, &tone, args.layers);
 
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet)?;
+    interrupt::cancels(&cancel, args.run.quiet);
     let mut drawn = Vec::new();
     // Of each layer another, so that no two put their dots in the same places.
     let seeds = (0..).map(|layer| args.seed.wrapping_add(layer));
@@ -97,7 +97,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
         };
         report.write((serde_json::to_string_pretty(&record)? + "\n").as_bytes())?;
     }
-    Ok(if cancel.is_cancelled() { interrupt::CODE } else { session::DONE })
+    Ok(if cancel.is_cancelled() { interrupt::code() } else { session::DONE })
 }
 
 /// Where everything goes, checked before the work begins.

@@ -10,7 +10,7 @@ pub fn run(args: &Zoneplate) -> anyhow::Result<u8> {
     let output = args.output.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose()?;
     let points = input::read_and_tell(&args.input, &args.space.space()?)?;
     let params = ZonePlateParams { pixels: args.pixels, max_frequency: args.frequency, filter: args.filter.into() };
-    let pool = session::pool(args.measured.threads)?;
+    let pool = session::pool(args.measured.threads, false)?;
     let plate =
         pool.install(|| zone_plate(&points, &params)).map_err(|e| measured::told(e, &args.input, &[("max_frequency", "frequency")]))?;
     if let Some(output) = &output {

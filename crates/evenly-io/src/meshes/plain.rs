@@ -1,4 +1,4 @@
-//! The formats of modellers: Wavefront, Stanford's and Geomview's, as text, and stereolithography.
+//! The formats of modellers: Wavefront and Geomview's, as text, and stereolithography.
 
 use std::fmt::Write as _;
 
@@ -26,28 +26,6 @@ pub(super) fn obj(cells: &Cells, recipe: &str) -> String {
     }
     for corners in cells.triangles {
         push_row(&mut text, "f ", corners.map(|v| v + 1));
-    }
-    text
-}
-
-pub(super) fn ply(cells: &Cells, recipe: &str) -> String {
-    let mut text = format!(
-        "ply\nformat ascii 1.0\ncomment {recipe}\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
-        cells.vertices.len()
-    );
-    for (name, _) in &cells.attributes {
-        let _ = writeln!(text, "property double {name}");
-    }
-    let _ = writeln!(text, "element face {}\nproperty list uchar int vertex_indices\nend_header", cells.triangles.len());
-    for (v, [x, y, z]) in cells.vertices.iter().enumerate() {
-        let _ = write!(text, "{} {} {}", Shortest(*x), Shortest(*y), Shortest(*z));
-        for (_, values) in &cells.attributes {
-            let _ = write!(text, " {}", Shortest(values[v]));
-        }
-        text.push('\n');
-    }
-    for &corners in cells.triangles {
-        push_row(&mut text, "3 ", corners);
     }
     text
 }

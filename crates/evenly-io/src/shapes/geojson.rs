@@ -1,4 +1,4 @@
-//! GeoJSON (RFC 7946): geometries, features and collections of them. All polygons count together; properties do not.
+//! GeoJSON (RFC 7946): geometries, features and collections of them. All polygons count together.
 
 use geojson::{Feature, GeoJson, GeometryValue, Position};
 
@@ -52,7 +52,8 @@ fn add(shapes: &mut Shapes, geometry: &GeometryValue) -> Result<(), String> {
             }
         }
         GeometryValue::GeometryCollection { geometries } => geometries.iter().try_for_each(|geometry| add(shapes, &geometry.value))?,
-        GeometryValue::Point { .. } | GeometryValue::MultiPoint { .. } => {}
+        GeometryValue::Point { coordinates } => shapes.points.extend(points(std::slice::from_ref(coordinates))?),
+        GeometryValue::MultiPoint { coordinates } => shapes.points.extend(points(coordinates)?),
     }
     Ok(())
 }

@@ -10,11 +10,13 @@ use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::scene::Node;
 use gltf::json::validation::Checked;
 use gltf::json::{Index, Root};
+use serde_json::Value;
 
 use self::buffers::Buffers;
 use self::place::Place;
 use super::TrianglesRead;
 use super::building::Building;
+use super::lines::shown;
 use crate::Error;
 
 /// The bytes before the parts of a binary file.
@@ -22,15 +24,32 @@ const HEAD: usize = 12;
 /// Extensions that hide positions where a plain reader cannot find them.
 const HIDING: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
 
+/// Extensions that are read.
+const KNOWN: [&str; 2] = ["KHR_mesh_quantization", INSTANCING];
+/// How extensions begin that change looks alone.
+const LOOKS: [&str; 6] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "MSFT_texture_"];
+/// The extension by which a node puts its mesh in many places.
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
 pub(super) fn read(name: &str, bytes: &[u8], folder: &Path) -> Result<TrianglesRead, Error> {
     let problem = |problem: String| Error::content(name, problem);
     let (json, blob) = split(bytes).map_err(problem)?;
+    let document: Value = serde_json::from_slice(&json).map_err(|e| problem(format!("this is no glTF: {e}")))?;
+    let version = document["asset"]["version"].as_str().unwrap_or("1.0");
+    if !version.starts_with("2.") {
+        return Err(problem(format!("this is glTF {}; 2.0 alone is read", shown(version.as_bytes()))));
+    }
     let root = Root::from_slice(&json).map_err(|e| problem(format!("this is no glTF: {e}")))?;
-    if let Some(hiding) = root.extensions_required.iter().find(|extension| HIDING.contains(&extension.as_str())) {
-        return Err(problem(format!("its triangles are compressed by {hiding}; export it without compression")));
+    for extension in &root.extensions_required {
+        if HIDING.contains(&extension.as_str()) {
+            return Err(problem(format!("its triangles are compressed by {extension}; export it without compression")));
+        }
+        if !KNOWN.contains(&extension.as_str()) && !LOOKS.iter().any(|looks| extension.starts_with(looks)) {
+            return Err(problem(format!("it needs the extension {}, which is not read", shown(extension.as_bytes()))));
+        }
     }
     let buffers = Buffers::new(&root, blob, folder);
-    let mut walk = Walk { root: &root, buffers, building: Building::default(), n_seen: 0, n_skipped: 0 };
+    let mut walk = Walk { root: &root, document: &document, buffers, building: Building::default(), n_seen: 0, n_skipped: 0 };
     walk.scene().map_err(problem)?;
     let Walk { mut building, n_skipped, .. } = walk;
     if n_skipped > 0 {
@@ -57,6 +76,8 @@ fn split(bytes: &[u8]) -> Result<(Vec<u8>, Option<Vec<u8>>), String> {
 /// The way through a scene.
 struct Walk<'a> {
     root: &'a Root,
+    /// The same with what `root` does not know.
+    document: &'a Value,
     buffers: Buffers<'a>,
     building: Building,
     n_seen: usize,
@@ -80,11 +101,37 @@ impl Walk<'_> {
             let node = root.get(index).ok_or_else(|| format!("there is no node {}", index.value()))?;
             let place = outer.of(node);
             if let Some(mesh) = node.mesh {
-                self.mesh(mesh.value(), &place)?;
+                for instance in self.instances(index.value()).map_err(|problem| format!("node {}: {problem}", index.value()))? {
+                    self.mesh(mesh.value(), &place.around(&instance))?;
+                }
             }
             waiting.extend(node.children.iter().flatten().rev().map(|&child| (child, place)));
         }
         Ok(())
+    }
+
+    /// Where a node puts its mesh, within its own place.
+    fn instances(&self, node: usize) -> Result<Vec<Place>, String> {
+        let attributes = &self.document["nodes"][node]["extensions"][INSTANCING]["attributes"];
+        let column = |name: &str, kind: Type| {
+            let index = attributes[name].as_u64().map(|index| usize::try_from(index).unwrap_or(usize::MAX));
+            index.map(|index| self.buffers.numbers(index, kind)).transpose()
+        };
+        let shifts = column("TRANSLATION", Type::Vec3)?;
+        let turns = column("ROTATION", Type::Vec4)?;
+        let scales = column("SCALE", Type::Vec3)?;
+        let numbers = [(&shifts, 3), (&turns, 4), (&scales, 3)].map(|(column, n)| column.as_ref().map(|column| column.len() / n));
+        let Some(n) = numbers.into_iter().flatten().next() else { return Ok(vec![Place::default()]) };
+        if numbers.into_iter().flatten().any(|other| other != n) {
+            return Err("its instances have columns of different lengths".into());
+        }
+        let instance = |k: usize| {
+            let shift = shifts.as_ref().map_or([0.0; 3], |all| [0, 1, 2].map(|axis| all[3 * k + axis]));
+            let turn = turns.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |all| [0, 1, 2, 3].map(|axis| all[4 * k + axis]));
+            let scale = scales.as_ref().map_or([1.0; 3], |all| [0, 1, 2].map(|axis| all[3 * k + axis]));
+            Place::new(scale, turn, shift)
+        };
+        Ok((0..n).map(instance).collect())
     }
 
     fn mesh(&mut self, index: usize, place: &Place) -> Result<(), String> {

@@ -82,15 +82,27 @@ impl<'a> Line<'a> {
         Some(word)
     }
 
-    /// The next word as a finite number.
-    pub fn number(&mut self, what: &str) -> Result<f64, Error> {
-        let word = self.expect(what)?;
-        parse(&String::from_utf8_lossy(word)).map_err(|problem| self.problem(problem))
+    /// The next word as a number.
+    fn number(&mut self, what: &str) -> Result<f64, Error> {
+        let word = String::from_utf8_lossy(self.expect(what)?);
+        match word.parse::<f64>() {
+            Ok(x) if !x.is_finite() => Ok(x),
+            _ => parse(&word).map_err(|problem| self.problem(problem)),
+        }
     }
 
-    /// Three numbers.
+    /// Three numbers, which may be no finite ones: some writers have such for vertices of no face.
     pub fn position(&mut self) -> Result<[f64; 3], Error> {
         Ok([self.number("x")?, self.number("y")?, self.number("z")?])
+    }
+
+    /// Three finite numbers.
+    pub fn finite_position(&mut self) -> Result<[f64; 3], Error> {
+        let position = self.position()?;
+        match position.iter().find(|x| !x.is_finite()) {
+            Some(x) => Err(self.problem(format!("{x} is not a finite number"))),
+            None => Ok(position),
+        }
     }
 
     /// The next word as a whole number from 0.
@@ -104,9 +116,14 @@ impl<'a> Line<'a> {
         self.word().ok_or_else(|| self.problem(format!("the line ends where there should be {what}")))
     }
 
+    /// The file's name and the line's number.
+    pub fn place(&self) -> String {
+        format!("{}:{}", self.name, self.number)
+    }
+
     /// That something is wrong in this line.
     pub fn problem(&self, problem: impl Into<String>) -> Error {
-        Error::content(format!("{}:{}", self.name, self.number), problem)
+        Error::content(self.place(), problem)
     }
 }
 

@@ -6,6 +6,7 @@ use super::TrianglesRead;
 use super::building::Building;
 use super::lines::{Line, Text, shown};
 use crate::Error;
+use crate::meshes::COLOURS;
 use crate::text::parse;
 
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
@@ -16,7 +17,8 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
     while let Some(mut line) = text.next_line() {
         match line.word() {
             Some(b"v") => {
-                building.mesh.vertices.push(line.position()?);
+                let position = line.position()?;
+                building.push_vertex(position, || line.place());
                 colours.push(colour(&mut line)?);
             }
             Some(b"f") => {
@@ -49,8 +51,10 @@ fn colour(line: &mut Line) -> Result<Option<[f64; 3]>, Error> {
 /// Colours are attributes if all vertices have one.
 fn attributes(colours: &[Option<[f64; 3]>]) -> Vec<Attribute> {
     let Some(all) = colours.iter().copied().collect::<Option<Vec<[f64; 3]>>>() else { return Vec::new() };
-    let names = ["red", "green", "blue"].into_iter().enumerate();
-    names.map(|(k, name)| Attribute { name: name.into(), values: all.iter().map(|colour| colour[k]).collect() }).collect()
+    // From 0 to 1, as most writers have them, or to 255.
+    let scale = if all.iter().flatten().all(|&x| x <= 1.0) { 255.0 } else { 1.0 };
+    let names = COLOURS.into_iter().take(3).enumerate();
+    names.map(|(k, name)| Attribute { name: name.into(), values: all.iter().map(|colour| scale * colour[k]).collect() }).collect()
 }
 
 /// The vertex of a corner such as `7/1/3`: counted from 1, or backwards from the last before this line.

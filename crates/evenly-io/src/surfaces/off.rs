@@ -11,11 +11,13 @@ const HEADS: [&[u8]; 8] = [b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF", b"STCOF
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
     let mut text = Text::new(name, bytes);
     let mut line = text.expect_line(|| "the word OFF".into())?;
-    let head = line.expect("the word OFF")?;
+    let word = line.expect("the word OFF")?;
+    // Some writers leave no blank before the number of vertices.
+    let (head, digits) = word.split_at(word.iter().position(u8::is_ascii_digit).unwrap_or(word.len()));
     if !HEADS.contains(&head) {
-        return Err(line.problem(format!("it begins with '{}', expected OFF, COFF or NOFF", shown(head))));
+        return Err(line.problem(format!("it begins with '{}', expected OFF, COFF or NOFF", shown(word))));
     }
-    let first = match line.word() {
+    let first = match Some(digits).filter(|digits| !digits.is_empty()).or_else(|| line.word()) {
         Some(b"BINARY") => return Err(line.problem("this is binary OFF; convert it to text or to .ply")),
         Some(word) => word,
         None => {
@@ -29,7 +31,8 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
     let mut building = Building::default();
     for v in 0..n_vertices {
         let mut line = text.expect_line(|| format!("vertex {} of {n_vertices}", v + 1))?;
-        building.mesh.vertices.push(line.position()?);
+        let position = line.position()?;
+        building.push_vertex(position, || line.place());
     }
     let mut corners = Vec::new();
     for f in 0..n_faces {

@@ -22,6 +22,7 @@ fn promised(bytes: &[u8]) -> Option<usize> {
 
 /// Text begins with the word solid; so do some binary files, whose length then fits.
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let is_text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     if is_text && !is_binary(bytes) { read_text(name, bytes) } else { read_binary(name, bytes) }
 }
@@ -45,6 +46,11 @@ fn read_binary(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
         }
         welding.end_face(t + 1).map_err(|problem| Error::content(name, problem))?;
     }
+    let n_more = n_whole - n;
+    if n_more > 0 {
+        let s = if n_more > 1 { "s" } else { "" };
+        welding.building.notes.push(format!("its head promises {n} triangles; {n_more} more triangle{s} after these were left out"));
+    }
     welding.building.finish(name, |_| name.to_owned())
 }
 
@@ -56,7 +62,7 @@ fn read_text(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
     let mut is_over = false;
     while let Some(mut line) = text.next_line() {
         match line.word().unwrap_or_default().to_ascii_lowercase().as_slice() {
-            b"vertex" => welding.push_corner(line.position()?),
+            b"vertex" => welding.push_corner(line.finite_position()?),
             b"endloop" => welding.end_face(line.number).map_err(|problem| line.problem(problem))?,
             b"endsolid" => is_over = true,
             b"facet" | b"outer" | b"endfacet" | b"solid" => is_over = false,

@@ -78,7 +78,7 @@ fn all_kinds_of_off_are_read() {
 fn colours_of_obj_are_attributes() {
     let mesh = parse_text(Kind::Obj, "v 0 0 0 1 0.5 0\nv 1 0 0 0 0 0\nv 0 1 0 1 1 0.25\nf 1 2 3\n").mesh;
     let attributes: Vec<(&str, &[f64])> = mesh.attributes.iter().map(|a| (a.name.as_str(), a.values.as_slice())).collect();
-    assert_eq!(attributes, [("red", &[1.0, 0.0, 1.0][..]), ("green", &[0.5, 0.0, 1.0]), ("blue", &[0.0, 0.0, 0.25])]);
+    assert_eq!(attributes, [("red", &[255.0, 0.0, 255.0][..]), ("green", &[127.5, 0.0, 255.0]), ("blue", &[0.0, 0.0, 63.75])]);
     assert!(parse_text(Kind::Obj, "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0\nf 1 2 3\n").mesh.attributes.is_empty());
 }
 
@@ -120,7 +120,7 @@ fn stl_as_text_is_welded() {
     let text = format!("solid\n{}{}endsolid\n", facet("0 0 0", "1 0 0", "0 1 0"), facet("1 0 0", "1 1 0", "-0 1e0 0"));
     let mesh = parse_text(Kind::Stl, &text).mesh;
     assert_eq!(mesh.triangles, [[0, 1, 2], [1, 3, 2]]);
-    assert_eq!(message(Kind::Stl, "solid\nfacet\nvertex 0 0 nan\n"), "m:3: nan is not a finite number");
+    assert_eq!(message(Kind::Stl, "solid\nfacet\nvertex 0 0 nan\n"), "m:3: NaN is not a finite number");
     assert!(message(Kind::Stl, text.replace("endsolid\n", "")).ends_with("but there should be endsolid"));
 }
 
@@ -180,7 +180,7 @@ fn gltf_reads_buffers_beside_it_and_in_binary() {
 #[test]
 fn what_cannot_be_read_is_named() {
     assert_eq!(message(Kind::Obj, "v 0 0 0\nv 0 0\n"), "m:2: the line ends where there should be z");
-    assert_eq!(message(Kind::Obj, "v 0 0 inf\n"), "m:1: inf is not a finite number");
+    assert_eq!(message(Kind::Obj, "v 0 0 inf\nf 1 1 1\n"), "m:1: the position (0, 0, inf) is not finite");
     assert_eq!(message(Kind::Obj, "v 0 \\\n x 0\n"), "m:1: 'x' is not a number");
     assert_eq!(message(Kind::Obj, "v 0 0 0\n\nf 1 2 3\n"), "m:3: a face has vertex 1 (counted from 0), but there are only 1");
     assert_eq!(message(Kind::Obj, "v 0 0 0\nf 1 0 1\n"), "m:2: a face has vertex 0, but vertices are counted from 1");
@@ -192,13 +192,115 @@ fn what_cannot_be_read_is_named() {
     assert_eq!(message(Kind::Off, "OFF\n1 1 0\n0 0 0\n3 0 0\n"), "m:4: the line ends where there should be a corner");
     assert_eq!(message(Kind::Off, "PLY\n"), "m:1: it begins with 'PLY', expected OFF, COFF or NOFF");
     let ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
-    assert_eq!(message(Kind::Ply, format!("{ply}0 0 NaN\n3 0 0 0\n")), "m:10: z is NaN, which is not finite");
+    assert_eq!(message(Kind::Ply, format!("{ply}0 0 NaN\n3 0 0 0\n")), "m:10: the position (0, 0, NaN) is not finite");
     assert_eq!(message(Kind::Ply, format!("{ply}0 0 0\n3 0 -1 0\n")), "m:11: a corner is -1, expected a whole number from 0");
     assert_eq!(message(Kind::Ply, format!("{ply}0 0 0\n")), "m:10: the file ends here, but there should be face 1 of 1");
     assert_eq!(message(Kind::Ply, ply.replace("property float z\n", "") + "0 0\n3 0 0 0\n"), "m: its vertices have no z");
     assert_eq!(message(Kind::Stl, [1; 100]), "m: its head promises 16843009 triangles, but there are 0");
     let huge = ply.replace("vertex 1", "junk 99999999999999\nelement vertex 1");
     assert!(parse(Kind::Ply, "m", (huge + "0 0 0\n3 0 0 0\n").as_bytes(), Path::new("")).is_ok());
+}
+
+fn area(mesh: &TriangleMesh) -> f64 {
+    let of = |t: &[usize; 3]| {
+        let [a, b, c] = t.map(|v| mesh.vertices[v]);
+        let (u, v) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
+        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        0.5 * n.iter().map(|x| x * x).sum::<f64>().sqrt()
+    };
+    mesh.triangles.iter().map(of).sum()
+}
+
+#[test]
+fn polygons_are_cut_as_they_are_from_any_first_corner() {
+    // An L, and a comb with corners on one line, upright and oblique.
+    let l = [[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]];
+    let comb = [[0, 0], [1, 0], [2, 0], [3, 0], [3, 2], [2, 2], [2, 1], [1, 1], [1, 2], [0, 2]];
+    for ring in [&l[..], &comb[..]] {
+        for [p, q] in [[0, 0], [1, 2]] {
+            let vertices: String = ring.iter().map(|[x, y]| format!("v {x} {y} {}\n", p * x + q * y)).collect();
+            let expected = 5.0 * f64::from(1 + p * p + q * q).sqrt();
+            let cut = |first: usize, step: usize| {
+                let corners: String = (0..ring.len()).map(|k| format!(" {}", (first + k * step) % ring.len() + 1)).collect();
+                let TrianglesRead { mesh, notes } = parse_text(Kind::Obj, &format!("{vertices}f{corners}\n"));
+                assert_eq!((mesh.triangles.len(), notes.len()), (ring.len() - 2, 1), "{notes:?}");
+                assert!((area(&mesh) - expected).abs() < 1e-12, "{}", area(&mesh));
+                mesh.triangles
+            };
+            let once = cut(0, 1);
+            (1..ring.len()).for_each(|first| assert_eq!(cut(first, 1), once));
+            cut(0, ring.len() - 1);
+        }
+    }
+    let crossing = parse_text(Kind::Off, "OFF\n4 1 0\n0 0 0\n1 1 0\n1 0 0\n0 1.5 0\n4 0 1 2 3\n");
+    assert_eq!(crossing.notes[1], "1 polygon is not simple and cut from one corner, the first at m:7");
+    let bent = parse_text(Kind::Off, "OFF\n4 1 0\n0 0 0\n1 0 1\n1 1 0\n0 1 1\n4 0 1 2 3\n");
+    assert_eq!(bent.notes[1], "1 polygon is far from flat, the first at m:7");
+}
+
+#[test]
+fn a_face_of_many_corners_is_cut() {
+    let n = 50_000;
+    let place = |k: usize| (k as f64 * std::f64::consts::TAU / n as f64).sin_cos();
+    let vertices: String = (0..n).map(place).map(|(y, x)| format!("v {x} {y} 0\n")).collect();
+    let corners: String = (1..=n).map(|k| format!(" {k}")).collect();
+    let mesh = parse_text(Kind::Obj, &format!("{vertices}f{corners}\n")).mesh;
+    assert!((area(&mesh) - std::f64::consts::PI).abs() < 1e-7);
+}
+
+#[test]
+fn what_writers_leave_is_read() {
+    let three = vec![[0, 1, 2]];
+    assert_eq!(parse_text(Kind::Off, "OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").mesh.triangles, three);
+    let stl = "\u{feff}solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    for text in [stl.to_owned(), stl.replace('\n', "\r")] {
+        assert_eq!(parse_text(Kind::Stl, &text).mesh.triangles, three);
+    }
+    let wide: Vec<u8> = stl.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    assert_eq!(parse(Kind::Stl, "m", &wide, Path::new("")).unwrap().mesh.triangles, three);
+    // Vertices of no face may be nowhere.
+    let odd = parse_text(Kind::Obj, "v 0 0 0\nv nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 4\n");
+    assert_eq!((odd.mesh.vertices.len(), odd.mesh.triangles), (3, three));
+    assert_eq!(odd.notes, ["1 vertex without a finite position, of no face, was left out"]);
+    let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+    let strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+    assert_eq!(parse_text(Kind::Ply, &format!("{head}{strips}4 0 1 2 3\n")).mesh.triangles, [[0, 1, 2], [2, 1, 3]]);
+    assert_eq!(parse_text(Kind::Ply, &format!("{head}{strips}7 0 1 2 -1 1 3 2\n")).mesh.triangles, [[0, 1, 2], [1, 3, 2]]);
+    assert!(message(Kind::Ply, head.replace("ascii 1.0", "ascii 2.0")).contains("version 2.0 of PLY"));
+}
+
+#[test]
+fn colours_go_out_as_bytes_and_come_back() {
+    let mut mesh = cube();
+    let colours = (0..8).map(|k| f64::from(k) * 36.4);
+    mesh.attributes = vec![Attribute { name: "red".into(), values: colours.clone().collect() }];
+    for format in [MeshFormat::Ply, MeshFormat::PlyText] {
+        let bytes = written(&mesh, format);
+        assert!(String::from_utf8_lossy(&bytes).contains("property uchar red\n"));
+        let read = parse(Kind::Ply, "m", &bytes, Path::new("")).unwrap().mesh;
+        assert_eq!((&read.vertices, &read.triangles), (&mesh.vertices, &mesh.triangles));
+        assert_eq!(read.attributes[0].values, colours.clone().map(f64::round).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn extensions_of_gltf_are_read_or_named() {
+    let required = |name: &str| gltf("").replacen('{', &format!("{{\"extensionsRequired\":[\"{name}\"],"), 1);
+    assert!(message(Kind::Gltf, required("ACME_secret")).contains("it needs the extension ACME_secret"));
+    parse_text(Kind::Gltf, &required("KHR_materials_unlit"));
+    assert!(message(Kind::Gltf, gltf("").replace("\"2.0\"", "\"1.0\"")).contains("glTF 1.0"));
+}
+
+#[test]
+fn single_precision_is_told() {
+    let mut mesh = cube();
+    assert_eq!(stl_rounding(&mesh), None);
+    mesh.vertices.iter_mut().for_each(|p| p[0] += 5e8);
+    assert!(stl_rounding(&mesh).unwrap().contains("lose their area"));
+    mesh.vertices[0][0] = 1e39;
+    let folder = tempfile::tempdir().unwrap();
+    let target = Target::any(&folder.path().join("m"), false).unwrap();
+    assert!(write_triangles(&mesh, MeshFormat::Stl, "", &target).unwrap_err().to_string().contains("3.4e38"));
 }
 
 #[test]

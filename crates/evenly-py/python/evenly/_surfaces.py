@@ -210,6 +210,7 @@ def remesh(
     features: float | Literal["off"] = 40.0,
     tolerance: float | Literal["off"] | None = None,
     repair: bool = False,
+    weld: float | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
 ) -> SurfaceMesh:
@@ -243,6 +244,8 @@ def remesh(
         How far the given mesh may be from the new one, in input units: where it is farther, a vertex is put and kept.
     repair : bool
         Mend what can be without guessing.
+    weld : float, optional
+        Make one of corners that lie within this distance of each other, in input units.
     threads, callback
         As in `generate`.
 
@@ -293,6 +296,7 @@ def remesh(
             "features": features,
             "tolerance": tolerance,
             "repair": repair,
+            "weld": weld,
         }
     )
 
@@ -327,6 +331,7 @@ def sample(
     seed: Seed = 0,
     method: Literal["push-pull", "eliminate", "poisson-disk", "white"] = "push-pull",
     repair: bool = False,
+    weld: float | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
 ) -> SurfacePoints:
@@ -346,6 +351,8 @@ def sample(
         'push-pull'; 'eliminate', by the mesh's neighbourhoods; 'poisson-disk', which is maximal, and does not reach through thin parts; or 'white'.
     repair : bool
         Mend what can be without guessing.
+    weld : float, optional
+        Make one of corners that lie within this distance of each other, in input units.
     threads, callback
         As in `generate`.
 
@@ -372,7 +379,7 @@ def sample(
     if (n is None) == (spacing is None):
         raise ValueError("give either n or spacing")
     chance = number(seed)
-    options = words({"n_points": n, "spacing": spacing, "seed": chance, "method": method, "repair": repair})
+    options = words({"n_points": n, "spacing": spacing, "seed": chance, "method": method, "repair": repair, "weld": weld})
 
     def build(answer: tuple[_Places, str]) -> SurfacePoints:
         (positions, facets, barycentric, normals), text = answer

@@ -364,7 +364,7 @@ fn push_and_pull_once(points: &mut PointSet, params: &PushPullParams, run: &mut 
         Ending::PassLimit | Ending::Diverging | Ending::Stuck => Outcome::IterationLimit,
     };
     let (order, best) = sweep.into_best();
-    if report.outcome == Outcome::Converged {
+    if matches!(report.outcome, Outcome::Converged | Outcome::Cancelled) {
         points.place(&domain, &order, &best);
     } else {
         let states = [Some(best), fallback].into_iter().flatten();

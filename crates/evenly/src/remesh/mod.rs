@@ -34,6 +34,8 @@ mod stars;
 mod start;
 mod targets;
 
+use std::collections::HashSet;
+
 use serde::Serialize;
 
 use self::live::{LiveSurface, Vertex};
@@ -45,6 +47,7 @@ use crate::error::Error;
 use crate::run::{Phase, Report, RunContext};
 use crate::surface::{Attribute, Features, Place, SIZE, Surface, TriangleMesh, weighted_area};
 use crate::sweep::Ground as _;
+use crate::triangulation::prev;
 
 /// The smallest size over the largest, at least.
 const SMALLEST_SIZE: f64 = 1e-6;
@@ -52,7 +55,7 @@ const SMALLEST_SIZE: f64 = 1e-6;
 /// What [`remesh`] can be told.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RemeshParams {
-    /// How many vertices the mesh is to have, exactly; 4 at least.
+    /// How many vertices the mesh is to have, exactly; 3 at least, and 4 of a closed surface.
     pub n_points: usize,
     /// By which rule they find their places.
     pub method: RemeshMethod,
@@ -93,8 +96,8 @@ impl RemeshParams {
     /// points that are not finite, or fewer than are wanted.
     pub fn validate(&self, surface: &Surface) -> Result<(), Error> {
         let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
-        if self.n_points < 4 || self.n_points > crate::MAX_POINTS {
-            return invalid("n_points", self.n_points.to_string(), "4 or more, and at most 40 million");
+        if self.n_points < 3 || self.n_points > crate::MAX_POINTS {
+            return invalid("n_points", self.n_points.to_string(), "3 or more, and at most 40 million");
         }
         if let Some(angle) = self.features_deg.filter(|&angle| !(angle > 0.0 && angle < 180.0)) {
             return invalid("features_deg", angle.to_string(), "more than 0, and less than 180");
@@ -250,6 +253,27 @@ fn size(surface: &Surface, live: &LiveSurface) -> Attribute {
     Attribute { name: SIZE.into(), values: (0..live.n_points() as u32).map(of).collect() }
 }
 
+/// How far a vertex is moved that shares a place with another, on the way to its neighbours' mean.
+const PARTED: f64 = 1e-6;
+
+/// Moves vertices apart that are in one place, as where parts touched: who reads the mesh would weld them.
+fn part_equal(vertices: &mut [[f64; 3]], live: &LiveSurface) {
+    let mut seen = HashSet::with_capacity(vertices.len());
+    let equal: Vec<usize> = (0..vertices.len()).filter(|&v| !seen.insert(vertices[v].map(|x| (x + 0.0).to_bits()))).collect();
+    if equal.is_empty() {
+        return;
+    }
+    let mesh = live.half_edges();
+    let outgoing = mesh.outgoing(vertices.len());
+    for v in equal {
+        let around: Vec<usize> =
+            mesh.around(outgoing[v]).flat_map(|h| [mesh.target(h), mesh.origin[prev(h) as usize]]).map(|w| w as usize).collect();
+        let n = around.len() as f64;
+        let mean = [0, 1, 2].map(|axis| around.iter().map(|&w| vertices[w][axis]).sum::<f64>() / n);
+        vertices[v].iter_mut().zip(mean).for_each(|(x, mean)| *x += PARTED * (mean - *x));
+    }
+}
+
 /// The mesh as it is given back.
 fn finished(surface: &Surface, live: &LiveSurface) -> Remeshed {
     let vertices = live.vertices();
@@ -258,8 +282,10 @@ fn finished(surface: &Surface, live: &LiveSurface) -> Remeshed {
         name: attribute.name.clone(),
         values: vertices.iter().map(|vertex| surface.attribute(attribute, vertex.face as usize, vertex.weights)).collect(),
     };
+    let mut vertices: Vec<[f64; 3]> = places.iter().map(|place| place.position).collect();
+    part_equal(&mut vertices, live);
     let mesh = TriangleMesh {
-        vertices: places.iter().map(|place| place.position).collect(),
+        vertices,
         triangles: live.half_edges().triangles().map(|t| t.map(|v| v as usize)).collect(),
         attributes: surface.attributes().iter().filter(|own| own.name != SIZE).map(attribute).chain([size(surface, live)]).collect(),
     };

@@ -35,8 +35,7 @@ impl SurfaceSampling {
 /// Spreads points over a surface.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] for a spacing that is not positive, or so small that more than 40 million points would fit, and for fewer than 4 points where they are not
-/// independent.
+/// [`Error::InvalidParameter`] for a spacing that is not positive, or so small that more than 40 million points would fit, and for no points.
 ///
 /// # Example
 /// ```
@@ -77,8 +76,14 @@ pub fn sample_surface(
             }
             done("poisson-disk", shown(poisson_disk(surface, inside, seed)))
         }
-        SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if !(4..=crate::MAX_POINTS).contains(&n) => {
-            invalid("n_points", n.to_string(), "4 or more, and at most 40 million")
+        SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if !(1..=crate::MAX_POINTS).contains(&n) => {
+            invalid("n_points", n.to_string(), "1 or more, and at most 40 million")
+        }
+        SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if n < LEAST_OF_PART * surface.n_components() => {
+            let mut report = Report::new("eliminate", n);
+            report.outcome = Outcome::Converged;
+            report.notes.push("there are too few points for a mesh of all parts; they are spread by straight distances".into());
+            Ok((shown(farthest(white(surface, CANDIDATES * n, seed), n)), report))
         }
         SurfaceSampling::Eliminate(n) => {
             let sizes = vec![1.0; surface.n_vertices()];
@@ -91,4 +96,28 @@ pub fn sample_surface(
             Ok((remeshed.places, report))
         }
     }
+}
+
+/// With fewer points than this for each part, there may be no mesh of them.
+const LEAST_OF_PART: usize = 8;
+/// Points to choose from, for each that is wanted.
+const CANDIDATES: usize = 8;
+
+/// Of many places so many, each the farthest from those before it.
+fn farthest(places: Vec<Place>, n: usize) -> Vec<Place> {
+    let mut distances = vec![f64::INFINITY; places.len()];
+    let mut chosen = Vec::with_capacity(n);
+    let mut next = 0;
+    while chosen.len() < n {
+        chosen.push(places[next]);
+        let at = places[next].at;
+        let mut largest = -1.0;
+        for (k, (place, distance)) in places.iter().zip(&mut distances).enumerate() {
+            *distance = distance.min(place.at.distance_squared(at));
+            if *distance > largest {
+                (next, largest) = (k, *distance);
+            }
+        }
+    }
+    chosen
 }

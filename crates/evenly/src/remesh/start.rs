@@ -25,15 +25,42 @@ pub(super) fn start(
     given: &[(Place, f64)],
     seed: u64,
 ) -> Result<Start, Error> {
-    let spacing = spacing(surface, n_points);
-    let mut draft = Draft::new(surface, features, sizes);
-    let too_few = |least: usize| Error::InvalidParameter {
+    let mut least = usize::MAX;
+    for round in 0..ROUNDS {
+        match attempt(surface, features, sizes, n_points, given, seed.wrapping_add(round as u64), SPARING.powi(round.min(SPARINGS)))? {
+            Ok(start) => return Ok(start),
+            Err(n) => least = least.min(n),
+        }
+    }
+    Err(Error::InvalidParameter {
         name: "n_points",
         value: format!("{n_points} where no fewer than {least} are possible"),
         expected: "as many as the mesh's shape and its features need; without features fewer do",
-    };
+    })
+}
+
+/// Where creases and borders leave too few vertices for the rest, they have so many times fewer in the next round, up to some; what is
+/// collapsed first is another edge in each.
+const SPARING: f64 = 1.5;
+const SPARINGS: i32 = 8;
+const ROUNDS: i32 = 24;
+
+/// As [`start`], with points on creases and borders so many spacings apart; how many vertices are needed where these are not enough.
+fn attempt(
+    surface: &Surface,
+    features: &Features,
+    sizes: &[f64],
+    n_points: usize,
+    given: &[(Place, f64)],
+    seed: u64,
+    spacings: f64,
+) -> Result<Result<Start, usize>, Error> {
+    let spacing = spacing(surface, n_points);
+    let mut draft = Draft::new(surface, features, sizes);
     // 1. Points along creases and borders.
-    pin_chains(&mut draft, spacing, n_points, &on_edges(surface, given)).map_err(too_few)?;
+    if let Err(least) = pin_chains(&mut draft, spacings * spacing, n_points, &on_edges(surface, given)) {
+        return Ok(Err(least));
+    }
     features.tips.iter().for_each(|&v| draft.pin(v));
     // 2. Vertices to choose from.
     if given.is_empty() {
@@ -47,10 +74,7 @@ pub(super) fn start(
     }
     // 3. As many as are wanted.
     let is_reached = eliminate(&mut draft, n_points, seed);
-    if !is_reached {
-        return Err(too_few(draft.n_live));
-    }
-    Ok(finished(&draft))
+    Ok(if is_reached { Ok(finished(&draft)) } else { Err(draft.n_live) })
 }
 
 /// What is left, vertices that are near to each other in space near to each other in memory.

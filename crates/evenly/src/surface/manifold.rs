@@ -46,7 +46,11 @@ pub(super) fn manifold(clean: &Clean, points: &[DVec3], is_repaired: bool) -> Re
                 "neighbouring triangles do not agree on which side is outside, at {text}; repair turns them"
             )));
         }
-        let turned = orientation(triangles.len(), &pairs, |a, b| origin(&triangles, a) != origin(&triangles, b));
+        let volume = |t: usize| {
+            let [a, b, c] = triangles[t].map(|v| points[v as usize]);
+            a.dot(b.cross(c))
+        };
+        let turned = orientation(triangles.len(), &pairs, |a, b| origin(&triangles, a) != origin(&triangles, b), volume);
         let n_turned = turned.iter().filter(|&&is| is).count();
         // A turned triangle keeps its half-edges' numbers only if its edges keep their places: (a b c) becomes (b a c), and its edges are sorted anew.
         for (triangle, _) in triangles.iter_mut().zip(&turned).filter(|(_, is)| **is) {
@@ -105,8 +109,9 @@ fn join(half_edges: &mut HalfEdges, a: u32, b: u32) {
     half_edges.twin[b as usize] = a;
 }
 
-/// Which triangles are to be turned so that neighbours agree as far as that goes: of each component the smaller part.
-fn orientation(n_triangles: usize, pairs: &[&[u32]], agrees: impl Fn(u32, u32) -> bool) -> Vec<bool> {
+/// Which triangles are to be turned so that neighbours agree as far as that goes: of each component the smaller part, or of a closed one that
+/// which leaves a positive volume.
+fn orientation(n_triangles: usize, pairs: &[&[u32]], agrees: impl Fn(u32, u32) -> bool, volume: impl Fn(usize) -> f64) -> Vec<bool> {
     let mut neighbours = vec![Vec::new(); n_triangles];
     for edge in pairs {
         let is_same = agrees(edge[0], edge[1]);
@@ -132,7 +137,13 @@ fn orientation(n_triangles: usize, pairs: &[&[u32]], agrees: impl Fn(u32, u32) -
             k += 1;
         }
         let n_turned = component.iter().filter(|&&t| turned[t] == Some(true)).count();
-        if 2 * n_turned > component.len() {
+        let is_closed = component.iter().all(|&t| neighbours[t].len() == 3);
+        let is_inside_out = if is_closed && n_turned > 0 {
+            component.iter().map(|&t| if turned[t] == Some(true) { -volume(t) } else { volume(t) }).sum::<f64>() < 0.0
+        } else {
+            2 * n_turned > component.len()
+        };
+        if is_inside_out {
             component.iter().for_each(|&t| turned[t] = turned[t].map(|is| !is));
         }
     }

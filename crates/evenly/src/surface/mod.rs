@@ -14,8 +14,10 @@ mod neighbours;
 mod poisson_disk;
 mod quality;
 mod sizing;
+mod stitch;
 mod triangle_mesh;
 mod walk;
+mod weld;
 
 use glam::DVec3;
 
@@ -36,6 +38,7 @@ pub(crate) use walk::Place;
 use self::clean::clean;
 use self::flatten::mend_flat;
 use self::manifold::{manifold, split_fans};
+use self::stitch::stitch;
 use crate::error::Error;
 use crate::triangulation::{BORDER, HalfEdges, prev};
 
@@ -120,7 +123,8 @@ impl Surface {
         Self::checked(mesh, false)
     }
 
-    /// The same, with repair: triangles are turned where neighbours run the other way, sheets that touch along an edge are separated, and what cannot be told apart
+    /// The same, with repair: triangles are turned where neighbours run the other way, a closed part of which some were turned so that its
+    /// volume is positive; cracks at vertices that lie on an open edge are closed, sheets that touch along an edge are separated, and what cannot be told apart
     /// is cut open there.
     ///
     /// # Errors
@@ -137,8 +141,12 @@ impl Surface {
         let places: Vec<DVec3> = mesh.vertices.iter().map(|&p| frame.inward(p)).collect();
         let mut clean = clean(mesh, &places)?;
         let points: Vec<DVec3> = clean.sources.iter().map(|&v| places[v]).collect();
+        let n_stitched = if is_repaired { stitch(&mut clean, &points) } else { 0 };
         let (mut half_edges, made_notes) = manifold(&clean, &points, is_repaired)?;
         let mut notes = std::mem::take(&mut clean.notes);
+        if n_stitched > 0 {
+            notes.push(format!("{n_stitched} vertices on the open edge of another triangle were joined to it"));
+        }
         notes.extend(made_notes);
         let n_flat = mend_flat(&mut half_edges, &mut clean.faces, &points);
         if n_flat > 0 {

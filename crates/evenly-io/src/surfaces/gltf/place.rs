@@ -16,9 +16,23 @@ impl Default for Place {
 }
 
 impl Place {
+    /// By a scale, then a rotation as a quaternion x, y, z, w, then a shift.
+    pub fn new(scale: [f64; 3], [x, y, z, w]: [f64; 4], shift: [f64; 3]) -> Self {
+        let columns = [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
+            [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
+            [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
+        ];
+        Self { columns: [0, 1, 2].map(|k: usize| columns[k].map(|x| x * scale[k])), shift }
+    }
+
     /// Of a node in this one.
     pub fn of(&self, node: &Node) -> Self {
-        let own = own(node);
+        self.around(&own(node))
+    }
+
+    /// Another one within this one.
+    pub fn around(&self, own: &Self) -> Self {
         let shift = self.apply(own.shift);
         Self { columns: own.columns.map(|column| self.turn(column)), shift }
     }
@@ -44,13 +58,6 @@ fn own(node: &Node) -> Place {
         let m = matrix.map(f64::from);
         return Place { columns: [[m[0], m[1], m[2]], [m[4], m[5], m[6]], [m[8], m[9], m[10]]], shift: [m[12], m[13], m[14]] };
     }
-    let [x, y, z, w] = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.0.map(f64::from));
-    let scale = node.scale.unwrap_or([1.0; 3]).map(f64::from);
-    let columns = [
-        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
-        [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
-        [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
-    ];
-    let scaled = [0, 1, 2].map(|k: usize| columns[k].map(|x| x * scale[k]));
-    Place { columns: scaled, shift: node.translation.unwrap_or_default().map(f64::from) }
+    let turn = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.0.map(f64::from));
+    Place::new(node.scale.unwrap_or([1.0; 3]).map(f64::from), turn, node.translation.unwrap_or_default().map(f64::from))
 }

@@ -85,11 +85,18 @@ impl Header {
 }
 
 fn read_encoding(line: &mut Line) -> Result<Encoding, Error> {
-    match line.expect("ascii or binary_little_endian")? {
-        b"ascii" => Ok(Encoding::Text),
-        b"binary_little_endian" => Ok(Encoding::LittleEndian),
-        b"binary_big_endian" => Ok(Encoding::BigEndian),
-        other => Err(line.problem(format!("the format is '{}', expected ascii, binary_little_endian or binary_big_endian", shown(other)))),
+    let encoding = match line.expect("ascii or binary_little_endian")? {
+        b"ascii" => Encoding::Text,
+        b"binary_little_endian" => Encoding::LittleEndian,
+        b"binary_big_endian" => Encoding::BigEndian,
+        other => {
+            let problem = format!("the format is '{}', expected ascii, binary_little_endian or binary_big_endian", shown(other));
+            return Err(line.problem(problem));
+        }
+    };
+    match line.word() {
+        None | Some(b"1.0") => Ok(encoding),
+        Some(other) => Err(line.problem(format!("this is version {} of PLY; 1.0 alone is read", shown(other)))),
     }
 }
 

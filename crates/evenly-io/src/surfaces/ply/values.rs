@@ -47,10 +47,7 @@ impl<'a> Values<'a> {
 
     /// That something is wrong with the element.
     pub fn problem(&self, problem: impl Into<String>) -> Error {
-        match &self.line {
-            Some(line) => line.problem(problem),
-            None => Error::content(format!("{}, {} {}", self.name, self.element, self.number), problem),
-        }
+        Error::content(self.place_name(), problem)
     }
 
     /// The next number. As text it has all its digits, whatever its type.
@@ -75,16 +72,29 @@ impl<'a> Values<'a> {
         number.ok_or_else(|| self.problem("the file ends within it"))
     }
 
-    /// The next list, of whole numbers from 0 where there is room for them.
-    pub fn list(&mut self, property: &Property, mut room: Option<&mut Vec<usize>>) -> Result<(), Error> {
+    /// The element's place, for messages.
+    pub fn place_name(&self) -> String {
+        match &self.line {
+            Some(line) => line.place(),
+            None => format!("{}, {} {}", self.name, self.element, self.number),
+        }
+    }
+
+    /// The next list, its numbers where there is room for them.
+    pub fn list(&mut self, property: &Property, mut room: Option<&mut Vec<f64>>) -> Result<(), Error> {
         let n = self.number(property.count.unwrap_or(property.kind))?;
         for _ in 0..self.whole(n, "a list's count")? {
             let number = self.number(property.kind)?;
             if let Some(room) = &mut room {
-                room.push(self.whole(number, "a corner")?);
+                room.push(number);
             }
         }
         Ok(())
+    }
+
+    /// A number of a vertex.
+    pub fn corner(&self, number: f64) -> Result<usize, Error> {
+        self.whole(number, "a corner")
     }
 
     fn whole(&self, number: f64, what: &str) -> Result<usize, Error> {
