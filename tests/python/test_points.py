@@ -103,7 +103,7 @@ def test_results_are_frozen_and_can_be_copied():
         points.seed = 1
     for other in (copy.copy(points), copy.deepcopy(points), pickle.loads(pickle.dumps(points))):
         np.testing.assert_array_equal(other.positions, points.positions)
-        assert (other.space, other.seed, other.outcome) == (evenly.Rectangle((2, 1)), 2, "converged")
+        assert (other.space, other.seed, other.outcome) == (evenly.Rectangle((2, 1)), 0, "converged")
     assert np.asarray(points).shape == (50, 2) and len(points) == 50 and points[0].shape == (2,)
     assert np.asarray(points, dtype=np.float32).dtype == np.float32
     assert "50 points by push-pull in a rectangle" in repr(points)
