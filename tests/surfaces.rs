@@ -423,10 +423,13 @@ fn near_corners_are_told_and_welded() {
     assert!(surface.is_closed() && surface.n_vertices() == whole.vertices.len());
     assert_eq!(surface.near_borders(), None);
     assert_eq!(Surface::new(&patch(20)).unwrap().near_borders(), None);
-    // Points need no mesh that hangs together.
-    for n in [1, 2, 10, 300] {
-        let places: HashSet<_> = positions(&open, SurfaceSampling::PushPull(n), 5).into_iter().map(|p| p.map(f64::to_bits)).collect();
-        assert_eq!(places.len(), n);
+    // Points need no mesh that hangs together, nor one of the surface's genus.
+    let handles = Surface::new(&genus_3()).unwrap();
+    for (surface, n) in [&open, &handles].into_iter().flat_map(|surface| [1, 2, 10, 300].map(|n| (surface, n))) {
+        for sampling in [SurfaceSampling::PushPull(n), SurfaceSampling::Eliminate(n)] {
+            let places: HashSet<_> = positions(surface, sampling, 5).into_iter().map(|p| p.map(f64::to_bits)).collect();
+            assert_eq!(places.len(), n);
+        }
     }
 }
 

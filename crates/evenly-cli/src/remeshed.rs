@@ -88,9 +88,7 @@ pub fn welded(mesh: TriangleMesh, tolerance: Option<f64>, notes: &mut Vec<String
 pub fn notes_on(surface: &Surface) -> Vec<String> {
     let seams = surface.near_borders().map(|(n, distance)| {
         let weld = 10.0 * distance;
-        format!(
-            "{n} vertices of borders lie within {distance:.1e} of another border's; where these should be one, --weld {weld:.0e} joins them"
-        )
+        format!("{n} boundary vertices lie within {distance:.1e} of another one; if they should be one, --weld {weld:.0e} joins them")
     });
     surface.notes().iter().cloned().chain(seams).collect()
 }

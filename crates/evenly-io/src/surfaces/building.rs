@@ -68,9 +68,8 @@ impl Building {
         }
         let mut is_kept = vec![true; self.mesh.vertices.len()];
         self.nowhere.iter().for_each(|&(v, _)| is_kept[v] = false);
-        let is_used = |v: usize| self.mesh.triangles.iter().any(|t| t.contains(&v));
-        let wrong = self.mesh.triangles.iter().any(|t| t.iter().any(|&v| !is_kept[v]));
-        if wrong && let Some((v, place)) = self.nowhere.iter().find(|&&(v, _)| is_used(v)) {
+        let used = self.mesh.triangles.iter().flatten().find(|&&v| !is_kept[v]);
+        if let Some((v, place)) = self.nowhere.iter().find(|(v, _)| used == Some(v)) {
             let [x, y, z] = self.mesh.vertices[*v];
             return Err(Error::content(place, format!("the position ({x}, {y}, {z}) is not finite")));
         }

@@ -62,6 +62,14 @@ pub fn sample_surface(
         report.outcome = Outcome::Converged;
         Ok((points, report))
     };
+    // Where no mesh has so few vertices.
+    let by_distance = |n: usize| {
+        let mut report = Report::new("eliminate", n);
+        report.outcome = Outcome::Converged;
+        report.notes.push("no mesh of the surface has so few vertices; the points are spread by straight distances".into());
+        (shown(farthest(white(surface, CANDIDATES * n, seed), n)), report)
+    };
+    let is_too_few = |e: &Error| matches!(e, Error::InvalidParameter { name: "n_points", .. });
     run.enter(Phase::Separate);
     match sampling {
         SurfaceSampling::White(n) if !(1..=crate::MAX_POINTS).contains(&n) => {
@@ -79,21 +87,20 @@ pub fn sample_surface(
         SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if !(1..=crate::MAX_POINTS).contains(&n) => {
             invalid("n_points", n.to_string(), "1 or more, and at most 40 million")
         }
-        SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if n < LEAST_OF_PART * surface.n_components() => {
-            let mut report = Report::new("eliminate", n);
-            report.outcome = Outcome::Converged;
-            report.notes.push("there are too few points for a mesh of all parts; they are spread by straight distances".into());
-            Ok((shown(farthest(white(surface, CANDIDATES * n, seed), n)), report))
-        }
+        SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if n < LEAST_OF_PART * surface.n_components() => Ok(by_distance(n)),
         SurfaceSampling::Eliminate(n) => {
             let sizes = vec![1.0; surface.n_vertices()];
-            let start = start(surface, &features, &sizes, n, &[], seed)?;
-            done("eliminate", start.vertices.iter().map(|vertex| vertex.shown(surface)).collect())
+            match start(surface, &features, &sizes, n, &[], seed) {
+                Err(e) if is_too_few(&e) => Ok(by_distance(n)),
+                start => done("eliminate", start?.vertices.iter().map(|vertex| vertex.shown(surface)).collect()),
+            }
         }
         SurfaceSampling::PushPull(n_points) => {
             let params = RemeshParams { n_points, features_deg: None, tolerance: None, seed, ..RemeshParams::default() };
-            let (remeshed, report) = remesh(surface, &params, run)?;
-            Ok((remeshed.places, report))
+            match remesh(surface, &params, run) {
+                Err(e) if is_too_few(&e) => Ok(by_distance(n_points)),
+                made => made.map(|(remeshed, report)| (remeshed.places, report)),
+            }
         }
     }
 }

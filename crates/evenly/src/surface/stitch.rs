@@ -1,4 +1,4 @@
-//! Cracks at T-vertices: where a vertex of a border lies on an edge of a border, the edge's triangle is divided there.
+//! Cracks at T-vertices: where a vertex of the boundary lies on a boundary edge, that edge's triangle is divided.
 
 use std::collections::{HashMap, HashSet};
 
