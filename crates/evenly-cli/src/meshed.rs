@@ -26,6 +26,8 @@ const LARGEST: f64 = 3.0;
 const WELDED: f64 = 1e-6;
 /// A spacing for so many triangles is found in so many steps.
 const ESTIMATES: usize = 4;
+/// Or until a step changes it by less than this part.
+const SETTLED: f64 = 1e-3;
 
 /// What files are called in what is said of them.
 #[derive(Clone, Copy)]
@@ -132,7 +134,11 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
             let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
             let expected = expected_triangles(polygon, &params).map_err(told)?;
             // Where details take most of them, larger triangles elsewhere save little.
+            let before = spacing;
             spacing = (spacing * (expected / n_triangles as f64).sqrt()).min(LARGEST * of_triangles(n_triangles));
+            if (spacing / before - 1.0).abs() < SETTLED {
+                break;
+            }
         }
     }
     let wanted = wanted(spacing);

@@ -12,7 +12,7 @@ use std::collections::{BinaryHeap, HashMap};
 use glam::DVec2;
 
 use super::outline::Outline;
-use crate::triangulation::{Planar, Refinement, Refining, Sizing, prev};
+use crate::triangulation::{HalfEdges, Planar, Refinement, Refining, Sizing, prev};
 
 /// The coarse mesh has no angle below about 25 degrees: 1 / (2 sin 25).
 const ASPECT: f64 = 1.183;
@@ -103,7 +103,7 @@ pub(super) fn background(outline: &Outline, planar: Planar, grading: &Grading) -
     }
     let mut sizing = Sizing { half_edges, positions, sizes };
     if !grading.follows_all {
-        leave_out_lone_details(&mut sizing, &asked, &facts);
+        leave_out_lone_details(&mut sizing, &asked, &facts, grading.growth);
     }
     // A short segment is a fact; that the domain is thin is followed to the floor alone.
     sizing.sizes.iter_mut().zip(facts).for_each(|(size, fact)| *size = size.max(fact.min(grading.floor)));
@@ -119,7 +119,9 @@ pub(super) fn background(outline: &Outline, planar: Planar, grading: &Grading) -
 
 /// Gives vertices at details that stand alone the spacing that was asked for; `facts` are the lengths of
 /// segments, which are followed in any case.
-fn leave_out_lone_details(sizing: &mut Sizing, asked: &[f64], facts: &[f64]) {
+fn leave_out_lone_details(sizing: &mut Sizing, asked: &[f64], facts: &[f64], growth: f64) {
+    let mut grown: Vec<f64> = facts.iter().zip(asked).map(|(fact, asked)| fact.min(*asked)).collect();
+    limit(&sizing.half_edges, &sizing.positions, &mut grown, growth);
     let Sizing { half_edges, positions, sizes } = sizing;
     let outgoing = half_edges.outgoing(positions.len());
     let mut is_seen = vec![u32::MAX; positions.len()];
@@ -147,7 +149,8 @@ fn leave_out_lone_details(sizing: &mut Sizing, asked: &[f64], facts: &[f64]) {
         }
         true
     };
-    let is_fine = |v: usize| sizes[v] < FINE_DETAIL * asked[v] && facts[v] >= FINE_DETAIL * asked[v];
+    // Where the spacing that grows from short segments is as fine, nothing is left out.
+    let is_fine = |v: usize| sizes[v] < FINE_DETAIL * asked[v] && facts[v] >= FINE_DETAIL * asked[v] && sizes[v] < grown[v];
     let fine = (0..positions.len()).filter(|&v| is_fine(v)).map(|v| v as u32);
     let alone: Vec<u32> = fine.filter(|&v| is_alone(v)).collect();
     for v in alone {
@@ -157,10 +160,20 @@ fn leave_out_lone_details(sizing: &mut Sizing, asked: &[f64], facts: &[f64]) {
 
 /// Makes sizes smaller where they differ by more than `growth` a length from a neighbour's.
 pub(super) fn limit_growth(sizing: &mut Sizing, growth: f64) {
-    let Sizing { half_edges, positions, sizes } = sizing;
+    limit(&sizing.half_edges, &sizing.positions, &mut sizing.sizes, growth);
+}
+
+fn limit(half_edges: &HalfEdges, positions: &[DVec2], sizes: &mut [f64], growth: f64) {
     let outgoing = half_edges.outgoing(positions.len());
-    // Positive numbers are in the order of their bits.
-    let mut queue: BinaryHeap<Reverse<(u64, u32)>> = sizes.iter().zip(0..).map(|(size, v)| Reverse((size.to_bits(), v))).collect();
+    // Positive numbers are in the order of their bits. Only from a size that is less than a neighbour's another may follow.
+    let mut queue: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
+    for h in (0..half_edges.origin.len() as u32).filter(|&h| h == outgoing[half_edges.origin[h as usize] as usize]) {
+        let v = half_edges.origin[h as usize];
+        let mut others = half_edges.around(h).flat_map(|h| [half_edges.target(h), half_edges.origin[prev(h) as usize]]);
+        if others.any(|other| sizes[v as usize] < sizes[other as usize]) {
+            queue.push(Reverse((sizes[v as usize].to_bits(), v)));
+        }
+    }
     while let Some(Reverse((bits, v))) = queue.pop() {
         let size = f64::from_bits(bits);
         if size > sizes[v as usize] {

@@ -330,7 +330,8 @@ fn capped(whole: &Outline, domain: &Domain, grading: &Grading) -> Result<(Outlin
     let mut n_tries = 0;
     loop {
         let (outline, caps) = cut_off(whole, &planar, &radii);
-        let background = background(&outline, outline.triangulated(domain)?, grading);
+        let own = if caps.is_empty() { planar.clone() } else { outline.triangulated(domain)? };
+        let background = background(&outline, own, grading);
         let lengths = border::lengths(&outline, &background);
         n_tries += 1;
         let is_large = |cap: &&Cap| lengths[cap.base as usize] > LONGEST_BASE;

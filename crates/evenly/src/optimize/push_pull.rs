@@ -108,8 +108,9 @@ impl Default for PushPullParams {
 /// So many attempts are made, while they have taken fewer than [`QUICK`] visits: half a second.
 const ATTEMPTS: usize = 20;
 const QUICK: usize = 1_000_000;
-/// So often points are transferred to where there is room.
+/// So often points are transferred to where there is room, unless more than this share of them miss targets.
 const TRANSFERS: usize = 4;
+const FEW: f64 = 0.5;
 /// In rectangles a smaller tolerance is not known to be reached together with {0.85, 0.67}.
 const LEAST_IN_RECTANGLES: f64 = 0.005;
 
@@ -283,7 +284,7 @@ pub(super) fn push_and_pull(
     attempt(points, params, run, report)?;
     let mut miss = if report.outcome == Outcome::Forced { params.total_miss(points) } else { 0.0 };
     for _ in 0..TRANSFERS {
-        if report.outcome != Outcome::Forced {
+        if report.outcome != Outcome::Forced || params.share_missing(points) > FEW {
             break;
         }
         let Some(mut moved) = transferred(points)? else { break };

@@ -23,6 +23,12 @@ pub trait Targets: Sync {
         }
     }
 
+    /// The share of the points that miss a target.
+    fn share_missing(&self, points: &PointSet) -> f64 {
+        let n_missing = measure_each(points).map_or(0, |each| each.iter().filter(|point| self.miss(point) > ROUNDING).count());
+        n_missing as f64 / points.n_points() as f64
+    }
+
     /// What to expect of targets that are tougher than those that are known to be reached by points like these.
     fn advice(&self, _points: &PointSet) -> Option<String> {
         None

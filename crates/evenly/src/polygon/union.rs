@@ -81,12 +81,20 @@ fn resolved(contours: impl Iterator<Item = Contour>, rule: FillRule) -> Vec<Cont
 /// Leaves out each ring that is the same as another, and counts them.
 fn leave_out_doubled(rings: &mut Vec<Ring>) -> usize {
     let areas: Vec<f64> = rings.iter().map(|ring| twice_area(ring).abs()).collect();
+    let boxes: Vec<[DVec2; 2]> = rings.iter().map(|ring| bounds(ring)).collect();
+    // Those that are the same begin at about the same x.
     let mut order: Vec<usize> = (0..rings.len()).collect();
-    order.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));
+    order.sort_by(|&a, &b| boxes[a][0].x.total_cmp(&boxes[b][0].x).then(a.cmp(&b)));
     let mut is_doubled = vec![false; rings.len()];
     for (k, &one) in order.iter().enumerate() {
-        let mut similar = order[k + 1..].iter().take_while(|&&other| areas[other] - areas[one] <= SAME * areas[other]);
-        if let Some(&other) = similar.find(|&&other| is_same(&rings[one], &rings[other])) {
+        let [low, high] = boxes[one];
+        let most = SAME.sqrt() * (high - low).max_element();
+        let is_near = |a: DVec2, b: DVec2| (a - b).abs().max_element() <= most;
+        let mut similar = order[k + 1..].iter().copied().take_while(|&other| boxes[other][0].x - low.x <= most).filter(|&other| {
+            let is_as_large = (areas[other] - areas[one]).abs() <= SAME * areas[other];
+            is_as_large && is_near(boxes[other][0], low) && is_near(boxes[other][1], high)
+        });
+        if let Some(other) = similar.find(|&other| is_same(&rings[one], &rings[other])) {
             // The first stays.
             is_doubled[one.max(other)] = true;
         }
@@ -96,17 +104,14 @@ fn leave_out_doubled(rings: &mut Vec<Ring>) -> usize {
     is_doubled.into_iter().filter(|&is| is).count()
 }
 
+/// The least and the greatest corner of the box around a ring.
+fn bounds(ring: &[DVec2]) -> [DVec2; 2] {
+    let low = ring.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    [low, ring.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max)]
+}
+
 /// Whether the places that lie in one ring and not in the other are few.
 fn is_same(one: &[DVec2], other: &[DVec2]) -> bool {
-    let corners = |ring: &[DVec2]| {
-        let low = ring.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        (low, ring.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max))
-    };
-    let ((low, high), (other_low, other_high)) = (corners(one), corners(other));
-    let most = SAME.sqrt() * (high - low).max_element();
-    if low.distance(other_low) > most || high.distance(other_high) > most {
-        return false;
-    }
     let differing = resolved([to_grid(one), to_grid(other)].into_iter(), FillRule::EvenOdd);
     area(&differing) <= SAME * 0.5 * twice_area(one).abs()
 }

@@ -126,7 +126,7 @@ impl Border {
                     continue;
                 }
                 let centre = snap((DVec2::new(column as f64, row as f64) + 0.5) / self.resolution);
-                self.bins[bin].is_inside = *before.get_or_insert_with(|| self.is_enclosed(centre));
+                self.bins[bin].is_inside = *before.get_or_insert_with(|| self.has_odd_crossings(centre, f64::INFINITY));
             }
         }
     }
@@ -158,13 +158,32 @@ impl Border {
         self.column(p.x) + self.row(p.y) * self.n_bins[0]
     }
 
-    /// Whether an odd number of segments lies to the right of a place. Exact.
+    /// Whether a place in a bin that segments reach lies inside. Exact.
     fn is_enclosed(&self, p: DVec2) -> bool {
+        // As the next place on its right of which that is known, if an even number of segments lies in between.
+        let first = self.row(p.y) * self.n_bins[0];
+        let known = (self.column(p.x) + 1..self.n_bins[0]).find(|column| self.bins[first + column].clearance > 0);
+        match known {
+            Some(column) => {
+                let end = snap(DVec2::new((column as f64 + 0.5) / self.resolution.x, p.y));
+                self.has_odd_crossings(p, end.x) != self.bins[first + column].is_inside
+            }
+            None => self.has_odd_crossings(p, f64::INFINITY),
+        }
+    }
+
+    /// Whether an odd number of segments crosses the line that goes to the right from a place to the x of
+    /// its end. Exact.
+    fn has_odd_crossings(&self, p: DVec2, end: f64) -> bool {
         let mut is_odd = false;
-        let may_hold = |low: DVec2, high: DVec2| low.y <= p.y && p.y < high.y && p.x <= high.x;
+        let to = DVec2::new(end, p.y);
+        let is_left_of = |p: DVec2, a: DVec2, b: DVec2| p.x < f64::INFINITY && is_left_turn(b - a, p - a);
+        let may_hold = |low: DVec2, high: DVec2| low.y <= p.y && p.y < high.y && p.x <= high.x && low.x <= end;
         self.tree.find(may_hold, |[a, b], _| {
-            let (is_up, is_down) = (a.y <= p.y && p.y < b.y, b.y <= p.y && p.y < a.y);
-            is_odd ^= (is_up && is_left_turn(b - a, p - a)) || (is_down && is_left_turn(a - b, p - b));
+            let [low, high] = if a.y < b.y { [a, b] } else { [b, a] };
+            if low.y <= p.y && p.y < high.y {
+                is_odd ^= is_left_of(p, low, high) != is_left_of(to, low, high);
+            }
             false
         });
         is_odd
@@ -239,6 +258,11 @@ impl Border {
     pub fn reaches(&self, low: DVec2, high: DVec2) -> bool {
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
         self.clearance(centre) <= half.length() && self.any_in(low, high, |segment| reaches_box(segment, centre, half))
+    }
+
+    /// The length of all segments.
+    pub fn length(&self) -> f64 {
+        self.segments.iter().map(|[a, b]| a.distance(*b)).sum()
     }
 
     /// How many parts the inside has, which nowhere hang together.
@@ -355,4 +379,36 @@ fn distance_to(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let part = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
     p.distance(a + part * along)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::points::Random;
+    use crate::space::snap;
+    use crate::{Polygon, Space};
+    use glam::DVec2;
+
+    #[test]
+    fn a_place_among_many_holes_is_inside_as_often_as_rings_are_crossed() {
+        let mut rings = vec![vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]];
+        let mut random = Random::new(1, 2);
+        for k in 0..900 {
+            let centre = [f64::from(k % 30), f64::from(k / 30)].map(|x| (x + 0.5) / 30.0);
+            let turn = random.unit();
+            let corner =
+                |j: u32| DVec2::from_array(centre) + 0.015 * DVec2::from_angle(std::f64::consts::TAU * (turn + f64::from(j) / 3.0));
+            rings.push((0..3).map(|j| corner(j).to_array()).collect());
+        }
+        let polygon = Polygon::from_rings(rings).unwrap();
+        let domain = Space::from(&polygon).domain();
+        let border = domain.border.as_ref().unwrap();
+        for _ in 0..20_000 {
+            let p = snap(DVec2::new(random.unit(), random.unit()) * domain.size);
+            let crossed = border.segments().iter().filter(|[a, b]| {
+                let [low, high] = if a.y < b.y { [a, b] } else { [b, a] };
+                low.y <= p.y && p.y < high.y && (high - low).perp_dot(p - low) > 0.0
+            });
+            assert_eq!(border.contains(p), crossed.count() % 2 == 1, "{p}");
+        }
+    }
 }

@@ -94,11 +94,28 @@ impl Bvh {
         best.0.map(|item| (item, best.1))
     }
 
-    /// Shows all items whose boxes meet a box.
-    pub fn meeting(&self, bounds: Bounds, mut show: impl FnMut(u32)) {
+    /// For each node the group to which all of its items belong, if it is one.
+    pub fn groups(&self, of_items: &[u32]) -> Vec<Option<u32>> {
+        let mut groups = vec![None; self.nodes.len()];
+        // Children come after their parents.
+        for (at, node) in self.nodes.iter().enumerate().rev() {
+            groups[at] = if node.n_items > 0 {
+                let items = &self.items[node.first as usize..(node.first + node.n_items) as usize];
+                let group = of_items[items[0] as usize];
+                items.iter().all(|&item| of_items[item as usize] == group).then_some(group)
+            } else {
+                groups[at + 1].filter(|_| groups[at + 1] == groups[node.first as usize])
+            };
+        }
+        groups
+    }
+
+    /// Shows all items whose boxes meet a box, but for those of nodes that are left out.
+    pub fn meeting(&self, bounds: Bounds, is_left_out: impl Fn(usize) -> bool, mut show: impl FnMut(u32)) {
         let mut stack = vec![0];
         while let Some(at) = stack.pop() {
-            let Some(node) = self.nodes.get(at).filter(|node| node.bounds.meets(bounds)) else { continue };
+            let is_asked = |node: &&Node| node.bounds.meets(bounds) && !is_left_out(at);
+            let Some(node) = self.nodes.get(at).filter(is_asked) else { continue };
             if node.n_items > 0 {
                 self.items[node.first as usize..(node.first + node.n_items) as usize].iter().for_each(|&item| show(item));
             } else {

@@ -6,6 +6,10 @@ use rayon::prelude::*;
 use super::Surface;
 use super::bvh::{Bounds, Bvh};
 use crate::predicates::orientation;
+use crate::triangulation::BORDER;
+
+/// Corners so near to a plane, in longest sides, lie in it.
+const FLAT: f64 = 1e-11;
 
 /// The pairs of triangles that cross each other, by their numbers in the given mesh. Neighbours that only share their edge or corner do not, nor do triangles that
 /// touch or lie in one plane.
@@ -13,17 +17,53 @@ pub fn self_intersections(surface: &Surface) -> Vec<[usize; 2]> {
     let n = surface.n_triangles();
     let bounds: Vec<Bounds> = (0..n).map(|t| Bounds::of(&surface.corners(t))).collect();
     let tree = Bvh::new(&bounds);
+    // Triangles of one polygon lie in one plane, many thousands of them in each other's boxes.
+    let patches = flat_patches(surface);
+    let patch_of_nodes = tree.groups(&patches);
     let crossed_by = |t: usize| {
         let mut others = Vec::new();
-        tree.meeting(bounds[t], |other| {
-            if other as usize > t && do_cross(surface, t, other as usize) {
-                others.push([t, other as usize].map(|t| surface.faces[t]));
+        let is_own = |node: usize| patch_of_nodes[node] == Some(patches[t]);
+        tree.meeting(bounds[t], is_own, |other| {
+            let other = other as usize;
+            if other > t && patches[other] != patches[t] && do_cross(surface, t, other) {
+                others.push([t, other].map(|t| surface.faces[t]));
             }
         });
         others.sort_unstable();
         others
     };
     (0..n).into_par_iter().flat_map_iter(crossed_by).collect()
+}
+
+/// For each triangle the patch to which it belongs, by the number of one of its triangles: those of a patch
+/// hang together by edges, and lie in one plane but for rounding.
+fn flat_patches(surface: &Surface) -> Vec<u32> {
+    let mut patches: Vec<u32> = (0..surface.n_triangles() as u32).collect();
+    let root = |patches: &mut Vec<u32>, mut t: u32| {
+        while patches[t as usize] != t {
+            patches[t as usize] = patches[patches[t as usize] as usize];
+            t = patches[t as usize];
+        }
+        t
+    };
+    for (h, &twin) in surface.half_edges.twin.iter().enumerate() {
+        let is_first = twin != BORDER && h < twin as usize;
+        if is_first && is_flat([h / 3, twin as usize / 3].map(|t| surface.corners(t))) {
+            let [a, b] = [h as u32 / 3, twin / 3].map(|t| root(&mut patches, t));
+            patches[a.max(b) as usize] = a.min(b);
+        }
+    }
+    (0..patches.len() as u32).map(|t| root(&mut patches, t)).collect()
+}
+
+/// Whether two triangles lie in one plane: that of the larger.
+fn is_flat(both: [[DVec3; 3]; 2]) -> bool {
+    let [one, other] = both.map(|[a, b, c]| (b - a).cross(c - a));
+    let (normal, from, places) =
+        if one.length_squared() > other.length_squared() { (one, both[0][0], both[1]) } else { (other, both[1][0], both[0]) };
+    let sides = both.iter().flat_map(|&[a, b, c]| [a.distance(b), b.distance(c), c.distance(a)]);
+    let longest = sides.fold(0.0, f64::max);
+    places.iter().all(|&p| (p - from).dot(normal).abs() <= FLAT * longest * normal.length())
 }
 
 fn do_cross(surface: &Surface, a: usize, b: usize) -> bool {

@@ -74,7 +74,8 @@ impl LiveMesh {
         let n_frame = if base.is_periodic { 0 } else { FRAME.len() };
         let Triangulation { half_edges, positions, domain, copies, order } = triangulation;
         let is_patient = domain.border.is_some() || field.as_ref().is_some_and(Field::has_gaps);
-        let patience = if is_patient { Patience::of(order.len()) } else { Patience::default() };
+        let share_at_boundary = domain.border.as_ref().map_or(0.0, |border| 0.5 * border.length() * spacing / border.area);
+        let patience = if is_patient { Patience::of(order.len(), share_at_boundary) } else { Patience::default() };
         let shares = domain.border.as_ref().map_or_else(Vec::new, |border| part_shares(border, &positions[..order.len()], field.as_ref()));
         Ok(Self {
             mesh: SharedMesh::new(&half_edges, positions.iter().map(|p| p.to_array())),
@@ -123,7 +124,9 @@ impl LiveMesh {
     pub fn with_fixed(mut self, n_fixed: usize) -> Self {
         if n_fixed > 0 {
             self.fixed = self.order.iter().map(|&index| (index as usize) < n_fixed).collect();
-            self.patience = Patience::of(self.order.len());
+            if !self.patience.has_any() {
+                self.patience = Patience::of(self.order.len(), 0.0);
+            }
         }
         self
     }

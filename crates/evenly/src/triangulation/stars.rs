@@ -100,7 +100,8 @@ impl LiveMesh {
         if let Some(held) = &self.held {
             self.scale_sizes(held, v, buffer);
         }
-        buffer.star.slack = self.patience.slack(v, buffer.star.leeway > 0.0);
+        let neighbours = buffer.spokes.iter().filter(|spoke| spoke.vertex < self.n_live).map(|spoke| self.point(spoke.vertex));
+        buffer.star.slack = self.patience.slack(v, buffer.star.leeway > 0.0, neighbours);
         if let Some(share) = self.shares.get(v as usize) {
             let star = &mut buffer.star;
             let mass = star.metric.mass.unwrap_or_else(|| star.measure_cell());
