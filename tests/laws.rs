@@ -6,7 +6,7 @@ mod spaces;
 
 use evenly::{
     CancelToken, CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Measures, Mode, OptBetaParams, Outcome,
-    PointSet, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Targets, Torus,
+    PointSet, Polygon, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Targets, Torus,
     WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh, farthest_point, hexagonal, jittered, lloyd, measure, opt_beta, procrustes,
     push_pull, tessellate, warp, well_spaced, white,
 };
@@ -316,6 +316,18 @@ fn what_was_separated_is_told() {
     assert_eq!((doubled.coincident_points, doubled.was_collinear), (2, false));
     let lined = run((0..9).map(|i| [0.1 * f64::from(i), 0.5]).collect(), nth(3));
     assert_eq!((lined.coincident_points, lined.was_collinear), (0, true));
+}
+
+#[test]
+fn points_near_a_line_in_a_polygon_spread_as_from_noise() {
+    let l_shape = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.5, 1.0], [0.5, 0.6], [0.0, 0.6]];
+    let space = Space::from(&Polygon::from_rings(vec![l_shape]).unwrap());
+    for (width, n) in [(0.0, 200), (1e-15, 10), (1e-12, 1000), (1e-4, 200)] {
+        let on_line = (0..n).map(|k| [0.02 + 0.96 * f64::from(k) / f64::from(n), 0.3 + width * f64::from(k * 7 % n) / f64::from(n)]);
+        let mut points = PointSet::new(&space, on_line.collect()).unwrap();
+        let report = cvt(&mut points, &CvtParams::default(), &mut RunContext::default()).unwrap();
+        assert!(report.was_collinear && measure(&points).unwrap().beta < 1.3, "{width} {n}");
+    }
 }
 
 #[test]

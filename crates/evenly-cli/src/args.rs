@@ -6,6 +6,7 @@ use clap::{Args, Command as Clap, CommandFactory as _, Parser, Subcommand};
 use evenly_io::Format;
 
 use crate::measuring_args::{Analyze, Bilateral, Reproduce, Zoneplate};
+use crate::memory;
 use crate::mesh_args::Mesh;
 use crate::method::{Method, parser, with_methods};
 use crate::method_args::{OptimizerArgs, StartArgs};
@@ -32,6 +33,9 @@ Exit codes: 0 done; 1 done, but not converged or a target not reached; 2 bad usa
 #[derive(Parser)]
 #[command(name = "evenly", version, after_help = EXAMPLES, max_term_width = 110)]
 pub struct Cli {
+    /// The most memory that a run may use, as 8GB or 500MB [default: three quarters of the machine's]
+    #[arg(long, value_name = "SIZE", global = true, value_parser = memory::parse, hide_short_help = true, help_heading = "Output")]
+    pub memory: Option<u64>,
     #[command(subcommand)]
     pub command: Command,
 }

@@ -9,6 +9,7 @@ mod input;
 mod interrupt;
 mod measured;
 mod measuring_args;
+mod memory;
 mod mesh_args;
 pub mod meshed;
 mod method;
@@ -57,6 +58,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(parsed) => parsed,
         Err(error) => return usage(&error),
     };
+    memory::keep_within(cli.memory);
     let flags = matches.subcommand().map(|(_, flags)| flags).unwrap_or(&matches);
     let done = match &cli.command {
         Command::Generate(args) => commands::generate::run(args, flags),

@@ -13,6 +13,7 @@ use evenly_io::{read_numbers, read_triangles_or_points};
 use serde_json::Value;
 
 use crate::measured::told;
+use crate::memory;
 use crate::method_args::set;
 use crate::parse::read_words;
 use crate::remesh_args::RemeshRule;
@@ -118,6 +119,7 @@ pub fn remeshed(
         n_points = n_points.or(Some((expected_vertices(surface, &sizes).round() as usize).max(4)));
     }
     let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
+    memory::require_vertices(n_points)?;
     let spacing = (2.0 * surface.area() / (3f64.sqrt() * n_points as f64)).sqrt();
     refuse_others_flags(wishes)?;
     let method = method(wishes);

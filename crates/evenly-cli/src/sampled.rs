@@ -5,6 +5,7 @@ use std::path::Path;
 use evenly::{Report, RunContext, Surface, SurfacePoint, SurfaceSampling, sample_surface};
 
 use crate::measured::told;
+use crate::memory;
 use crate::parse::read_words;
 use crate::remesh_args::SampleRule;
 pub use crate::remesh_args::SampleWishes;
@@ -19,6 +20,7 @@ const FLAGS: [(&str, &str); 2] = [("n_points", "n-points"), ("spacing", "spacing
 /// As [`sample_surface`], with the names of flags; `name` is the mesh's.
 pub fn sampled(surface: &Surface, name: &Path, wishes: &SampleWishes, run: &mut RunContext) -> anyhow::Result<(Vec<SurfacePoint>, Report)> {
     let n_points = number_of(surface, wishes.n_points, wishes.spacing)?.unwrap_or_default();
+    memory::require_vertices(n_points)?;
     let sampling = match (wishes.method, wishes.spacing) {
         (SampleRule::PushPull, _) => SurfaceSampling::PushPull(n_points),
         (SampleRule::Eliminate, _) => SurfaceSampling::Eliminate(n_points),

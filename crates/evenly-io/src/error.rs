@@ -4,6 +4,8 @@ use std::io;
 
 use thiserror::Error;
 
+use crate::memory::bytes_told;
+
 /// A file that cannot be read or written. The message names it, and the line where there is one.
 #[derive(Debug, Error)]
 pub enum Error {
@@ -32,6 +34,16 @@ pub enum Error {
         problem: &'static str,
         /// The endings that are possible.
         choices: String,
+    },
+    /// More memory than is allowed.
+    #[error("{name}: reading it would take {}; at most {} of memory may be used", bytes_told(*needed), bytes_told(*allowed))]
+    Memory {
+        /// The file's name as it was given.
+        name: String,
+        /// In bytes.
+        needed: u64,
+        /// In bytes.
+        allowed: u64,
     },
     /// The output exists already.
     #[error("{0} exists already; pass --force to overwrite it")]

@@ -5,6 +5,7 @@ use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use crate::memory::{memory_limit, require};
 use crate::shapes::read_points_of_map;
 use crate::{Error, Format, Table, npy, table, text};
 
@@ -56,11 +57,20 @@ pub fn read_numbers(path: &Path) -> Result<Vec<f64>, Error> {
 /// A file's name for messages, and all that is in it; `-` is stdin.
 pub(crate) fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Error> {
     let name = display_name(path, "stdin");
-    let mut bytes = Vec::new();
-    if path == OsStr::new("-") {
-        std::io::stdin().lock().read_to_end(&mut bytes).map_err(Error::io(&name))?;
+    let most = memory_limit();
+    let (source, length): (Box<dyn std::io::Read>, u64) = if path == OsStr::new("-") {
+        (Box::new(std::io::stdin().lock()), 0)
     } else {
-        bytes = std::fs::read(path).map_err(Error::io(&name))?;
+        let file = std::fs::File::open(path).map_err(Error::io(&name))?;
+        let length = file.metadata().map_or(0, |of| of.len());
+        (Box::new(file), length)
+    };
+    // Streams, and what is no plain file, do not tell how long they are.
+    require(&name, length)?;
+    let mut bytes = Vec::with_capacity(length as usize);
+    source.take(most / 2).read_to_end(&mut bytes).map_err(Error::io(&name))?;
+    if bytes.len() as u64 == most / 2 {
+        return Err(Error::Memory { name, needed: most, allowed: most });
     }
     Ok((name, bytes))
 }

@@ -4,11 +4,17 @@ use std::io::Cursor;
 use std::path::Path;
 
 use evenly::Image;
-use image::{DynamicImage, ImageDecoder as _, ImageReader};
+use image::{DynamicImage, ImageDecoder as _, ImageReader, Limits};
 
 use crate::file::read_bytes;
+use crate::memory::require;
 use crate::pixels::{bytes, colour, encode};
 use crate::{Error, Target};
+
+/// What a picture has besides pixels, such as a colour profile, takes no more bytes than this.
+const MOST_BESIDES: u64 = 100_000_000;
+/// So many times the decoded pixels are in memory while a picture is read.
+const COPIES: u64 = 3;
 
 /// Reads a PNG, JPEG, TIFF, WebP, GIF or BMP, of 8 or 16 bits, grey or in colour; what is transparent lies on white. `-` is stdin.
 ///
@@ -29,18 +35,28 @@ pub(crate) fn decode(path: &Path, most_pixels: usize) -> Result<(String, Dynamic
         return Err(Error::content(&name, "not a whole JPEG: its end is missing"));
     }
     let mut reader = ImageReader::new(Cursor::new(&bytes));
-    reader.no_limits();
+    reader.limits(limits(MOST_BESIDES));
     let mut decoder = reader.with_guessed_format().map_err(|e| unreadable(e.into()))?.into_decoder().map_err(unreadable)?;
     let (width, height) = decoder.dimensions();
     if width as usize * height as usize > most_pixels {
         let problem = format!("{width} x {height} pixels; at most {most_pixels} are possible: make it smaller");
         return Err(Error::content(&name, problem));
     }
+    let needed = decoder.total_bytes();
+    require(&name, needed.saturating_mul(COPIES))?;
+    decoder.set_limits(limits(needed.saturating_mul(COPIES).saturating_add(MOST_BESIDES))).map_err(unreadable)?;
     // Cameras turn the picture, not the pixels.
     let orientation = decoder.orientation().map_err(unreadable)?;
     let mut picture = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
     picture.apply_orientation(orientation);
     Ok((name, picture))
+}
+
+/// At most so many bytes for a decoder.
+fn limits(bytes: u64) -> Limits {
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(bytes);
+    limits
 }
 
 /// Whether the end is marked after the last scan: decoders make grey of what is missing. Neither mark is found in a scan.

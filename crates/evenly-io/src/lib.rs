@@ -9,6 +9,7 @@ mod figure;
 mod file;
 mod format;
 mod image;
+mod memory;
 mod meshes;
 mod npy;
 mod output;
@@ -28,6 +29,7 @@ pub use figure::{Axis, Curve, Draw, Subject, chart, compared_svg, figure, pictur
 pub use file::{Target, discard_temporaries, make_folder, read_numbers, read_positions, read_rows, read_table, write_together};
 pub use format::Format;
 pub use image::{read_image, write_image};
+pub use memory::{bytes_told, limit_memory, memory_limit, usual_memory};
 pub use meshes::{MeshFormat, encode_mesh, encode_polygons, mesh_svg, write_mesh, write_polygons};
 pub use output::{write_figure, write_points, write_table};
 pub use photograph::{Photograph, Tone, luma};

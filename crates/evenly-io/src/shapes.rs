@@ -1,5 +1,6 @@
 //! Polygons and lines from files: GeoJSON, WKT, SVG, and plain rings as text. Units are kept.
 
+mod entities;
 mod geographic;
 mod geojson;
 mod rings;

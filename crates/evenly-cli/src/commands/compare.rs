@@ -13,7 +13,7 @@ use crate::method::{Method, refuse_others_flags};
 use crate::method_args::start as begin;
 use crate::table::Kind;
 use crate::talk::say;
-use crate::{input, interrupt, record, session};
+use crate::{input, interrupt, memory, record, session};
 
 /// Points in a method's picture.
 const SHOWN: usize = 600;
@@ -47,6 +47,7 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<u8> {
     // What is wrong with a parameter is said before the work begins.
     for &method in &methods {
         args.optimizer.optimizer(method, args.seed)?;
+        memory::require_points(n_points, method)?;
     }
     let start = args.start.unwrap_or(Method::Procrustes.default_start(&space, false));
     let cancel = CancelToken::default();

@@ -5,6 +5,7 @@ use clap::ArgMatches;
 
 use crate::args::Generate;
 use crate::input;
+use crate::memory;
 use crate::method::{Method, refuse_others_flags};
 use crate::method_args::start_around;
 use crate::session::Session;
@@ -15,6 +16,9 @@ pub fn run(args: &Generate, flags: &ArgMatches) -> anyhow::Result<u8> {
     input::require_one_stdin(args.density.path().into_iter().chain(args.space.path()).chain(args.fixed.path()))?;
     let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
     let mut session = Session::new(&args.run, Some(args.seed))?;
+    if let Some(n_points) = args.n_points {
+        memory::require_points(n_points, args.method)?;
+    }
     let begin = args.start.unwrap_or(args.method.default_start(&space, args.density.is_given()));
     if args.density.is_given() && optimizer.is_some() {
         begin.require_density()?;

@@ -6,6 +6,7 @@ use evenly::warp;
 
 use crate::args::Optimize;
 use crate::input;
+use crate::memory;
 use crate::method::{Method, refuse_others_flags};
 use crate::session::Session;
 
@@ -26,6 +27,7 @@ pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<u8> {
         session.note(format!("the columns {} are left out: with --fixed rows have other places", columns.names.join(", ")));
     }
     let points = input::joined(&fixed, points)?;
+    memory::require_points(points.n_points(), args.method)?;
     let given = points.with_density(&session.time("read", || args.density.density())?);
     let mut points = args.metric.applied(given.clone())?;
     session.restores_to = args.metric.is_unit().then_some(given);

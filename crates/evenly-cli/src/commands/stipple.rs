@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::stipple::{Dots, DotsParams, Ink, Paper, ToneReport, Tones, Wanted, dots, edges_of, optimizer, shares};
 use crate::stipple_args::{DotKind, Stipple};
 use crate::talk::say;
-use crate::{interrupt, record, session};
+use crate::{interrupt, memory, record, session};
 
 /// The thinnest pen.
 const FINEST_MM: f64 = 0.001;
@@ -27,6 +27,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     if args.edges.is_some() && args.n_points < 3 {
         bail!("--n-points is {}; edges take 3 dots or more", args.n_points);
     }
+    memory::require_points(args.n_points, args.method)?;
     let tone = args.tone.tone()?;
     // For bad usage, before a long read.
     optimizer(args.method, args.iterations, args.seed)?;

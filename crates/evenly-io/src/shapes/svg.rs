@@ -9,12 +9,16 @@ use roxmltree::Document;
 use usvg::tiny_skia_path::PathSegment;
 use usvg::{ClipPath, Group, Node, Options, Path, Tree};
 
+use super::entities::expanded_length;
 use super::{Points, Shapes, close};
+use crate::memory::bytes_told;
 
 /// How far off flattened curves may be, in the drawing's size, if nothing else is said.
 const TOLERANCE: f64 = 1e-3;
 /// And how near they are in any case, in the same.
 const FINEST: f64 = 1e-7;
+/// A drawing's own entities make no more bytes of it than this, but for doubling it.
+const LONGEST: u64 = 50_000_000;
 /// Elements in elements go no deeper than this.
 const DEEPEST: usize = 1000;
 
@@ -42,6 +46,10 @@ pub(super) fn read(text: &str, tolerance: Option<f64>) -> Result<Shapes, String>
 /// The drawing with a view box that moves and scales nothing, so that all coordinates are the
 /// drawing's own; and where it begins in y.
 fn in_own_units(text: &str) -> Result<(String, f64), String> {
+    let length = expanded_length(text);
+    if length > LONGEST.max(2 * text.len() as u64) {
+        return Err(format!("its own entities make {} of it; at most {} are read", bytes_told(length), bytes_told(LONGEST)));
+    }
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|e| format!("this is no SVG: {e}"))?;
     let root = document.root_element();

@@ -18,6 +18,7 @@ use super::TrianglesRead;
 use super::building::Building;
 use super::lines::shown;
 use crate::Error;
+use crate::memory::{bytes_told, memory_limit};
 
 /// The bytes before the parts of a binary file.
 const HEAD: usize = 12;
@@ -28,6 +29,8 @@ const HIDING: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compressio
 const KNOWN: [&str; 2] = ["KHR_mesh_quantization", INSTANCING];
 /// How extensions begin that change looks alone.
 const LOOKS: [&str; 6] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "MSFT_texture_"];
+/// A surface with a vertex takes about so much memory for it.
+const BYTES_A_VERTEX: u64 = 500;
 /// The extension by which a node puts its mesh in many places.
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
@@ -152,6 +155,7 @@ impl Walk<'_> {
         let positions = self.buffers.numbers(positions.value(), Type::Vec3)?;
         let first = self.building.mesh.vertices.len();
         let n = positions.len() / 3;
+        require_few(first + n)?;
         for (v, p) in positions.chunks_exact(3).enumerate() {
             let position = place.apply([p[0], p[1], p[2]]);
             if let Some(x) = position.iter().find(|x| !x.is_finite()) {
@@ -174,6 +178,16 @@ impl Walk<'_> {
         }
         Ok(())
     }
+}
+
+/// That so many vertices, of as many triangles or so, fit in memory.
+fn require_few(n_vertices: usize) -> Result<(), String> {
+    let needed = n_vertices as u64 * BYTES_A_VERTEX;
+    if needed <= memory_limit() {
+        return Ok(());
+    }
+    let [needed, allowed] = [needed, memory_limit()].map(bytes_told);
+    Err(format!("{n_vertices} vertices or more would take {needed}; at most {allowed} of memory may be used"))
 }
 
 /// The triangles of a list, a strip or a fan; those of a strip without area only join its parts.

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::density::Field;
 use crate::error::Error;
-use crate::points::{PointSet, make_distinct, separate};
+use crate::points::{PointSet, leave_line, make_distinct, separate};
 use crate::run::{Phase, Report, RunContext};
 use crate::space::Domain;
 use crate::triangulation::LiveMesh;
@@ -39,9 +39,10 @@ pub(super) fn prepare(points: &PointSet, report: &mut Report, run: &mut RunConte
     run.enter(Phase::Separate);
     let (domain, mut positions) = points.normalized();
     let spacing = domain.hex_spacing(positions.len());
+    let has_left_line = leave_line(points.space(), &mut positions, points.n_fixed(), spacing);
     let separated = separate(&domain, &mut positions, points.n_fixed(), spacing);
     report.coincident_points = separated.coincident_points;
-    report.was_collinear = separated.was_collinear;
+    report.was_collinear = separated.was_collinear || has_left_line;
     let order = separated.order;
     let positions = order.iter().map(|&index| positions[index as usize]).collect();
     let field = points.field(&domain);

@@ -25,7 +25,7 @@ pub(crate) use order::hilbert_order;
 pub use point_set::{MAX_POINTS, PointSet};
 pub use poisson_disk::{PoissonDiskParams, poisson_disk, poisson_disk_around, poisson_disk_of};
 pub(crate) use random::Random;
-pub(crate) use separate::{make_distinct, part, separate};
+pub(crate) use separate::{leave_line, make_distinct, part, separate};
 pub use varying_disk::{poisson_disk_by_density, poisson_disk_of_density};
 pub use warp::{warp, warp_isotropic};
 pub use white::{white, white_by_density};

@@ -5,8 +5,9 @@ use glam::DVec2;
 use super::bins::Bins;
 use super::order::hilbert_order;
 use super::random::Random;
+use super::uniform::Uniform;
 use crate::predicates::are_collinear;
-use crate::space::Domain;
+use crate::space::{Domain, Space};
 
 /// What had to be separated.
 pub(crate) struct Separated {
@@ -18,6 +19,10 @@ pub(crate) struct Separated {
 
 /// How far points are moved at first, in hexagonal spacings.
 const JITTER: f64 = 1e-3;
+
+/// Points so near to a line, in spacings, are as good as on it, and crowded with so many in a spacing.
+const NEAR_LINE: f64 = 0.1;
+const CROWDED: f64 = 2.0;
 
 /// So often another place is tried for a point that is too near to another.
 const PARTINGS: usize = 20;
@@ -35,6 +40,26 @@ pub(crate) fn separate(domain: &Domain, positions: &mut [DVec2], n_fixed: usize,
     }
     let (order, coincident_points) = make_distinct(domain, positions, n_fixed, spacing);
     Separated { order, coincident_points, was_collinear }
+}
+
+/// Puts points of a polygon that nearly lie on one line, of more than fit on it, anywhere in the polygon; the
+/// first `n_fixed` stay. From a line the way to an even spread is longer than any run.
+pub(crate) fn leave_line(space: &Space, positions: &mut [DVec2], n_fixed: usize, spacing: f64) -> bool {
+    let is_left = space.region().is_some() && nearly_fill_a_line(positions, spacing);
+    if is_left {
+        let uniform = Uniform::new(space);
+        let mut random = Random::new(0, 13);
+        positions[n_fixed..].iter_mut().for_each(|p| *p = uniform.place(&mut random));
+    }
+    is_left
+}
+
+fn nearly_fill_a_line(points: &[DVec2], spacing: f64) -> bool {
+    let [first, ..] = *points else { return false };
+    let far = points.iter().copied().fold(first, |far, p| if p.distance_squared(first) > far.distance_squared(first) { p } else { far });
+    let along = (far - first).normalize_or_zero();
+    let is_near = |p: DVec2| (p - first).perp_dot(along).abs() <= NEAR_LINE * spacing;
+    points.len() as f64 > CROWDED * (1.0 + first.distance(far) / spacing) && points.iter().all(|&p| is_near(p))
 }
 
 /// Gives every point a place of its own; returns the Hilbert order, and how many points had none.

@@ -1,0 +1,19 @@
+//! Meshes of polygons whose rings have their corners on a grid.
+#![no_main]
+
+mod shapes;
+
+use evenly::{MeshParams, Polygon, RunContext, mesh, mesh_quality};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|data: &[u8]| {
+    let Some(([spacing, n_corners], rest)) = shapes::split(data) else { return };
+    let corners: Vec<[f64; 2]> = shapes::places(&rest[..rest.len().min(120)]);
+    let rings = corners.chunks(usize::from(n_corners % 16) + 3).map(<[_]>::to_vec).collect();
+    let Ok(polygon) = Polygon::from_rings(rings) else { return };
+    let params = MeshParams::new(polygon.area().sqrt() * (0.1 + f64::from(spacing) / 64.0));
+    if let Ok((mesh, _)) = mesh(&polygon, &params, &mut RunContext::default()) {
+        let area = mesh_quality(&mesh).area;
+        assert!((area - polygon.area()).abs() <= 1e-9 * polygon.area(), "{area} {}", polygon.area());
+    }
+});
