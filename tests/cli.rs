@@ -518,3 +518,47 @@ fn factors_in_units_of_their_own_spread_over_all_their_levels() {
     }
     shell.refused("generate -n 20 --metric metres -o other.txt");
 }
+
+#[test]
+fn a_run_keeps_within_its_memory() {
+    let shell = Shell::new();
+    let refused = |line: &str, expected: &str| {
+        let said = shell.refused(line);
+        assert!(said.contains(expected), "{line}: {said}");
+    };
+    refused("generate -n 10000000 --memory 500MB -o out.txt", "10000000 points by procrustes take about 4.5 GB of memory");
+    refused("generate -n 3 --memory 8X -o out.txt", "--memory");
+
+    // Of 100 kB that are put in a thousand times.
+    let long = "M0 0L1 0L1 1".repeat(8000);
+    let uses = "<path d='&p;'/>".repeat(1000);
+    shell.write(
+        "entities.svg",
+        format!("<!DOCTYPE svg [<!ENTITY p \"{long}\">]><svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 2 2'>{uses}</svg>"),
+    );
+    refused("mesh entities.svg -n 10 -o out.obj", "its own entities make 96.1 MB of it");
+    // Drawing programs have short ones.
+    shell.write(
+        "short.svg",
+        "<!DOCTYPE svg [<!ENTITY p \"M0 0L1 0L1 1\">]><svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 2 2'><path d='&p;'/></svg>",
+    );
+    shell.ok("mesh short.svg -n 10 -o short.obj");
+
+    // A triangle in 300,000 places.
+    let triangle: String =
+        [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).map(|byte| format!("%{byte:02x}")).collect();
+    let part = "{\"attributes\":{\"POSITION\":0}}";
+    let parts = vec![part; 1000].join(",");
+    let nodes = vec!["{\"mesh\":0}"; 300].join(",");
+    let roots: Vec<String> = (0..300).map(|node| node.to_string()).collect();
+    shell.write(
+        "many.gltf",
+        format!(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"buffers\":[{{\"byteLength\":36,\"uri\":\"data:application/octet-stream,{triangle}\"}}],\
+             \"bufferViews\":[{{\"buffer\":0,\"byteLength\":36}}],\"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}}],\
+             \"meshes\":[{{\"primitives\":[{parts}]}}],\"nodes\":[{nodes}],\"scenes\":[{{\"nodes\":[{}]}}],\"scene\":0}}",
+            roots.join(",")
+        ),
+    );
+    refused("sample many.gltf -n 10 --memory 100MB -o out.ply", "at most 100.0 MB of memory may be used");
+}

@@ -205,3 +205,23 @@ fn odd_pictures_are_drawn_or_refused() {
         assert!(said.contains(reason), "{line}: {said}");
     }
 }
+
+#[test]
+fn what_is_lighter_than_white_stays_empty_and_ink_that_cannot_be_is_told() {
+    let shell = Shell::new();
+    picture(&shell, "p.png", [60, 40], 1, photograph);
+    for flags in ["", "--floor 0.5", "--contrast 0.5"] {
+        shell.ok(&format!("stipple p.png -n 400 --white 0.7 {flags} -o dots.txt --force"));
+        let dots = points(&shell.read("dots.txt"));
+        let is_light = |x: f64, y: f64| photograph((x.floor() + 0.5) / 60.0, (y.floor() + 0.5) / 40.0, 0) > 0.71;
+        assert_eq!((dots.len(), dots.iter().filter(|[x, y]| is_light(*x, *y)).count()), (400, 0), "{flags}");
+    }
+    assert!(shell.refused("stipple p.png -n 9 --white 0 -o out.svg").contains("--white is 0"));
+
+    let said = |flags: &str| String::from_utf8(shell.run(&format!("stipple p.png -n 400 {flags} -o d.svg --force")).stderr).unwrap();
+    let told = said("--pen 0.1mm");
+    assert!(told.contains("% of the picture's darkness") && told.contains("dots would have all of it, or a pen of"), "{told}");
+    // Then it has.
+    let pen = told.rsplit("a pen of ").next().unwrap().trim().replace(' ', "");
+    assert!(!said(&format!("--pen {pen}")).contains("darkness"));
+}

@@ -154,3 +154,48 @@ fn bad_input_is_one_clear_error() {
     shell.run("remesh edge.off -n 100 --repair -o m.ply");
     assert!(json(&shell.ok("analyze edge.off --json"))["is_manifold"] == false);
 }
+
+#[test]
+fn parts_of_files_that_are_not_kept_are_told() {
+    let shell = shell();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    shell.write("parts.obj", format!("{corners}g a\nf 1 3 2\nf 1 2 4\ng b\nusemtl red\nf 2 3 4\nf 3 1 4\n"));
+    shell.write("whole.obj", format!("{corners}o a\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"));
+    shell.write(
+        "labels.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n\
+         property list uchar int vertex_indices\nproperty int label\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1 5\n3 0 1 3 5\n3 1 2 3 6\n3 2 0 3 6\n",
+    );
+    for (name, told) in [
+        ("parts.obj", Some("its 3 objects, groups and materials are not kept apart")),
+        ("whole.obj", None),
+        ("labels.ply", Some("what its faces have besides corners is not kept: label")),
+    ] {
+        let output = shell.run(&format!("sample {name} -n 10 -o out.ply --force"));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert_eq!(told.is_some(), said.contains("kept"), "{name}: {said}");
+        assert!(told.is_none_or(|told| said.contains(told)), "{name}: {said}");
+    }
+}
+
+#[test]
+fn a_mesh_that_misses_its_targets_says_what_and_where_and_a_coarse_one_what_it_loses() {
+    let shell = shell();
+    let output = shell.run("remesh cube.off -n 50 -o cube.obj --report r.json");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    let record = json(&shell.read("r.json"));
+    for missed in record["missed"].as_array().unwrap() {
+        let [what, n] = ["what", "n"].map(|name| missed[name].to_string().replace('"', ""));
+        assert!(said.contains(&format!("not reached: {n} {what}")), "{said}");
+    }
+    assert_eq!(record["missed"].as_array().unwrap().len(), 2);
+    let smallest: Vec<f64> =
+        record["breaches"].as_array().unwrap().iter().map(|breach| breach["min_angle_deg"].as_f64().unwrap()).collect();
+    assert_eq!(smallest[0], record["quality"]["min_angle_deg"].as_f64().unwrap());
+
+    let few = |n: usize| String::from_utf8(shell.run(&format!("remesh torus.off -n {n} -o few.obj --force")).stderr).unwrap();
+    assert!(few(30).contains("30 vertices are few for this surface: a mesh of them has"), "{}", few(30));
+    assert!(!few(600).contains("are few"));
+}

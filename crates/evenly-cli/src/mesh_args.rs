@@ -14,7 +14,7 @@ use crate::shared_args::{DensityArgs, LongArgs};
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  evenly mesh area.geojson --spacing 50 -o area.msh\n  evenly mesh plate.svg -n 20000 --no-obtuse -o plate.vtu --cells cells.geojson\n\n\
-                  Polygons: GeoJSON, WKT, SVG (what its shapes enclose), or text: x y a line, a blank line between rings, holes inside.\n\
+                  Polygons: GeoJSON, WKT, shapefiles, SVG (what its shapes enclose), or text: x y a line, a blank line between rings, holes inside.\n\
                   Red triangles in drawings have an angle below 25 degrees, light red ones are obtuse.\n\
                   Exit code 1: the mesh is written, but has angles below --min-angle or obtuse ones with --no-obtuse; where and why is said."
 )]
@@ -38,7 +38,7 @@ pub struct Mesh {
     /// Points that become vertices, as .txt, .csv, .npy or .geojson
     #[arg(long, value_name = "FILE", help_heading = "Constraints")]
     pub fixed: Option<PathBuf>,
-    /// Lines inside that become edges: GeoJSON, WKT, SVG, or text with a blank line between them
+    /// Lines inside that become edges: GeoJSON, WKT, SVG, shapefiles, or text with a blank line between them
     #[arg(long, value_name = "FILE", help_heading = "Constraints")]
     pub lines: Option<PathBuf>,
     /// Parts that touch stay apart, as regions: features, polygons or shapes; where they overlap the first has the place

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use evenly::{
-    Attribute, CertificateBreach, DistMeshParams, LloydParams, OptBetaParams, PushPullParams, RemeshMethod, RemeshParams, Remeshed, Report,
-    RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, WellSpacedParams, certificate,
-    expected_vertices, remesh, self_intersections, surface_distance, surface_quality, surface_sizes,
+    Attribute, CertificateBreach, DistMeshParams, LloydParams, OptBetaParams, Outcome, PushPullParams, RemeshMethod, RemeshParams,
+    Remeshed, Report, RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, WellSpacedParams,
+    certificate, expected_vertices, remesh, self_intersections, surface_distance, surface_quality, surface_sizes,
 };
 use evenly_io::{read_numbers, read_triangles_or_points};
 use serde_json::Value;
@@ -15,6 +15,7 @@ use serde_json::Value;
 use crate::measured::told;
 use crate::memory;
 use crate::method_args::set;
+use crate::missed::{Missed, missed, worst_first};
 use crate::parse::read_words;
 use crate::remesh_args::RemeshRule;
 pub use crate::remesh_args::RemeshWishes;
@@ -52,6 +53,8 @@ pub struct Made {
     pub self_intersections: usize,
     /// Triangles whose angles are not what the targets imply; none for methods without targets.
     pub breaches: Vec<CertificateBreach>,
+    /// Lengths that are not what was asked for, where the run has not converged.
+    pub missed: Vec<Missed>,
     /// How it came about.
     pub report: Report,
     /// What was asked for.
@@ -136,12 +139,15 @@ pub fn remeshed(
     // What has no area, or touches itself, is mended for the measures alone.
     let made = Surface::repaired(&remeshed.mesh)?;
     report.notes.extend(made.notes().iter().map(|note| format!("in the new mesh, as measured: {note}")));
-    let breaches = targets(&method).map_or_else(Vec::new, |beta| certificate(&made, beta));
+    let mut breaches = targets(&method).map_or_else(Vec::new, |beta| certificate(&made, beta));
+    worst_first(&mut breaches);
+    let missed = if report.outcome == Outcome::IterationLimit { missed(&remeshed.mesh, &method) } else { Vec::new() };
     Ok(Made {
         quality: surface_quality(&made),
         distance: surface_distance(&made, surface),
         self_intersections: self_intersections(&made).len(),
         breaches,
+        missed,
         parameters: serde_json::json!(params),
         remeshed,
         report,

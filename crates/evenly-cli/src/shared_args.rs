@@ -13,7 +13,7 @@ use crate::talk::say;
 pub struct SpaceArgs {
     /// The domain: torus (periodic), rect (bounded), or a polygon's file
     ///
-    /// Sets of a torus tile the plane. Polygons are read as by mesh: GeoJSON, WKT, SVG or text. Points stay inside, and see nothing across its border.
+    /// Sets of a torus tile the plane. Polygons are read as by mesh: GeoJSON, WKT, SVG, shapefile or text. Points stay inside, and see nothing across its border.
     #[arg(long, value_name = "SPACE", default_value = "torus", value_parser = parse_space)]
     space: SpaceArg,
     /// Width and height of a torus or rect [default: 1,1]

@@ -128,21 +128,25 @@ pub struct ToneArgs {
     /// The least darkness, from 0 to 1: more than 0 leaves no paper empty
     #[arg(long, value_name = "F", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Tone")]
     floor: f64,
+    /// Leave the paper empty where the picture is lighter than this, from 0 to 1; with --invert, where it is darker than 1 less this
+    #[arg(long, value_name = "W", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Tone")]
+    white: f64,
 }
 
 impl ToneArgs {
     /// # Errors
     /// A number out of its range.
     pub fn tone(&self) -> anyhow::Result<Tone> {
-        let Self { contrast, gamma, floor, .. } = *self;
+        let Self { contrast, gamma, floor, white, .. } = *self;
         let checks = [
             ("contrast", contrast, (0.0..=100.0).contains(&contrast), "0 to 100"),
             ("gamma", gamma, gamma > 0.0 && gamma <= 100.0, "above 0, and 100 at most"),
             ("floor", floor, (0.0..=1.0).contains(&floor), "0 to 1"),
+            ("white", white, white > 0.0 && white <= 1.0, "above 0, and 1 at most"),
         ];
         for (name, value, is_good, expected) in checks {
             anyhow::ensure!(is_good, "--{name} is {value}; it must be {expected}");
         }
-        Ok(Tone { is_inverted: !self.invert, contrast, gamma, floor })
+        Ok(Tone { is_inverted: !self.invert, contrast, gamma, floor, cutoff: 1.0 - white })
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::memory::{memory_limit, require};
-use crate::shapes::read_points_of_map;
+use crate::shapes::{SHAPEFILE, read_points_of_map};
 use crate::{Error, Format, Table, npy, table, text};
 
 /// Reads points from a file, or from stdin for `-`. Numpy arrays and GeoJSON are known by their first bytes, all else is text.
@@ -26,6 +26,9 @@ pub fn read_table(path: &Path) -> Result<Table, Error> {
     let of_points = |positions| Table { positions, ..Table::default() };
     if bytes.starts_with(b"\x93NUMPY") {
         return npy::read(&name, &bytes).map(of_points);
+    }
+    if bytes.starts_with(SHAPEFILE) {
+        return read_points_of_map(&name, &bytes).map(of_points);
     }
     if text::plain(&bytes).trim_ascii_start().starts_with(b"{") {
         return read_points_of_map(&name, &bytes).map(of_points);

@@ -25,11 +25,13 @@ pub struct Tone {
     pub gamma: f64,
     /// The part of the largest density that there is at least.
     pub floor: f64,
+    /// Tones below this have no density at all, before all else.
+    pub cutoff: f64,
 }
 
 impl Default for Tone {
     fn default() -> Self {
-        Self { is_inverted: false, contrast: 1.0, gamma: 1.0, floor: 0.0 }
+        Self { is_inverted: false, contrast: 1.0, gamma: 1.0, floor: 0.0, cutoff: 0.0 }
     }
 }
 
@@ -37,6 +39,9 @@ impl Tone {
     /// The density that a tone from 0 to 1 stands for.
     pub fn density(&self, tone: f32) -> f32 {
         let tone = f64::from(if self.is_inverted { 1.0 - tone } else { tone });
+        if tone < self.cutoff {
+            return 0.0;
+        }
         let spread = (self.contrast * (tone - 0.5) + 0.5).clamp(0.0, 1.0);
         (self.floor + (1.0 - self.floor) * spread.powf(self.gamma)) as f32
     }

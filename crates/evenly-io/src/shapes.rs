@@ -1,6 +1,7 @@
-//! Polygons and lines from files: GeoJSON, WKT, SVG, and plain rings as text. Units are kept.
+//! Polygons and lines from files: GeoJSON, WKT, SVG, shapefiles, and plain rings as text. Units are kept.
 
 mod entities;
+mod esri;
 mod geographic;
 mod geojson;
 mod rings;
@@ -11,6 +12,8 @@ use std::path::Path;
 
 use evenly::{Polygon, Shape};
 
+pub(crate) use self::esri::BEGIN as SHAPEFILE;
+use self::esri::BEGIN;
 use crate::Error;
 use crate::file::read_bytes;
 use crate::text::plain;
@@ -35,7 +38,7 @@ struct Shapes {
     is_geographic: bool,
 }
 
-/// Reads a polygon. What is in the file tells the format: GeoJSON or WKT (all polygons together),
+/// Reads a polygon. What is in the file tells the format: GeoJSON, WKT or a shapefile (all polygons together),
 /// SVG (what is filled, or where nothing is, closed outlines; in the view box' units, y upwards from
 /// its lower side), or text: `x y` a line, a blank line between rings. Curves are flattened so that no
 /// place of them is farther off than `tolerance`, in the file's units; `None` for a thousandth of the
@@ -88,8 +91,10 @@ pub fn read_regions(path: &Path, tolerance: Option<f64>) -> Result<(Polygon, Vec
 /// # Errors
 /// As [`read_polygon`].
 pub fn read_lines(path: &Path) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    let (name, Shapes { parts, lines, .. }) = read(path, None)?;
-    let mut rings: Vec<Points> = parts.into_iter().flatten().collect();
+    let (name, Shapes { parts, filled, lines, is_plain, .. }) = read(path, None)?;
+    // Of a shapefile; those of a drawing and of text are among the lines.
+    let filled = filled.into_iter().filter(|_| lines.is_empty() && !is_plain).flat_map(|shape| shape.rings);
+    let mut rings: Vec<Points> = parts.into_iter().flatten().chain(filled).collect();
     rings.iter_mut().for_each(close);
     let lines: Vec<Points> = rings.into_iter().chain(lines).filter(|line| line.len() > 1).collect();
     if lines.is_empty() {
@@ -98,7 +103,7 @@ pub fn read_lines(path: &Path) -> Result<Vec<Vec<[f64; 2]>>, Error> {
     Ok(lines)
 }
 
-/// The points of GeoJSON, in the file `name`.
+/// The points of GeoJSON, or of a shapefile, in the file `name`.
 pub(crate) fn read_points_of_map(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
     let Shapes { points, .. } = parse(name, bytes, None)?;
     if points.is_empty() { Err(Error::content(name, "there are no points in it")) } else { Ok(points) }
@@ -113,12 +118,19 @@ fn close(ring: &mut Points) {
 
 fn read(path: &Path, tolerance: Option<f64>) -> Result<(String, Shapes), Error> {
     let (name, bytes) = read_bytes(path)?;
-    let shapes = parse(&name, &bytes, tolerance)?;
+    let mut shapes = parse(&name, &bytes, tolerance)?;
+    if bytes.starts_with(BEGIN) {
+        shapes.is_geographic = esri::is_geographic(path);
+    }
     Ok((name, shapes))
 }
 
 fn parse(name: &str, bytes: &[u8], tolerance: Option<f64>) -> Result<Shapes, Error> {
-    let no_text = || Error::content(name, "this is not text; polygons are read from GeoJSON, WKT, SVG, and rings as text");
+    if bytes.starts_with(BEGIN) {
+        return esri::read(bytes).map_err(|problem| Error::content(name, problem));
+    }
+    let no_text =
+        || Error::content(name, "this is not text; polygons are read from GeoJSON, WKT, SVG, shapefiles (.shp), and rings as text");
     let bytes = plain(bytes);
     let whole = std::str::from_utf8(&bytes).map_err(|_| no_text())?.trim_start_matches('\u{feff}');
     let text = whole.trim_start();

@@ -54,6 +54,7 @@ impl CancelToken {
 #[derive(Default)]
 pub struct RunContext<'a> {
     progress: Option<Box<dyn FnMut(Progress) + 'a>>,
+    warning: Option<Box<dyn FnMut(&str) + 'a>>,
     cancel: CancelToken,
 }
 
@@ -62,6 +63,13 @@ impl<'a> RunContext<'a> {
     #[must_use]
     pub fn on_progress(mut self, progress: impl FnMut(Progress) + 'a) -> Self {
         self.progress = Some(Box::new(progress));
+        self
+    }
+
+    /// Calls `warning` with what should be known before the run has ended; the report's notes have it too.
+    #[must_use]
+    pub fn on_warning(mut self, warning: impl FnMut(&str) + 'a) -> Self {
+        self.warning = Some(Box::new(warning));
         self
     }
 
@@ -76,6 +84,14 @@ impl<'a> RunContext<'a> {
         if let Some(call) = &mut self.progress {
             call(progress);
         }
+    }
+
+    /// Says at once, and in the report, what should be known.
+    pub(crate) fn warn(&mut self, warning: String, report: &mut Report) {
+        if let Some(call) = &mut self.warning {
+            call(&warning);
+        }
+        report.notes.push(warning);
     }
 
     pub(crate) fn enter(&mut self, phase: Phase) {

@@ -9,6 +9,7 @@ use evenly_io::{MeshFormat, Target, read_triangles, stl_rounding, write_triangle
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::missed::Missed;
 use crate::remesh_args::Remesh;
 use crate::remeshed::{Made, notes_on, points, remeshed, sizing, surface_of, welded, with_places};
 use crate::talk::say;
@@ -33,12 +34,19 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
+    let mut warned: Vec<String> = Vec::new();
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
+        if !args.run.quiet {
+            context = context.on_warning(|warning| {
+                warned.push(warning.into());
+                bar.suspend(|| say(format_args!("note: {warning}")));
+            });
+        }
         remeshed(&surface, &args.input, wishes, sizing.as_ref(), points, &mut context)
     });
     bar.finish_and_clear();
-    let Made { remeshed, quality, distance, self_intersections, breaches, report, parameters } = made?;
+    let Made { remeshed, quality, distance, self_intersections, breaches, missed, report, parameters } = made?;
     notes.extend(report.notes.iter().cloned());
 
     if targets.format == MeshFormat::Stl {
@@ -60,11 +68,12 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
         self_intersections,
         run: report,
         breaches: &breaches,
+        missed: &missed,
         notes: &notes,
         seconds: begin.elapsed().as_secs_f64(),
     };
     if !args.run.quiet {
-        summarize(&targets.mesh.name(), &record);
+        summarize(&targets.mesh.name(), &record, &warned);
     }
     let text = serde_json::to_string_pretty(&record)? + "\n";
     if let Some(report) = &targets.report {
@@ -126,14 +135,17 @@ struct RemeshRecord<'a> {
     distance: SurfaceDistance,
     self_intersections: usize,
     run: Report,
-    /// Triangles whose angles are not what the targets imply.
+    /// Triangles whose angles are not what the targets imply, the worst first.
     breaches: &'a [CertificateBreach],
+    /// Lengths that are not what was asked for, where the run has not converged.
+    missed: &'a [Missed],
     notes: &'a [String],
     seconds: f64,
 }
 
-fn summarize(name: &str, record: &RemeshRecord) {
-    for note in record.notes {
+/// What was said before is not said again.
+fn summarize(name: &str, record: &RemeshRecord, warned: &[String]) {
+    for note in record.notes.iter().filter(|note| !warned.contains(note)) {
         say(format_args!("note: {note}"));
     }
     let SurfaceQuality { n_vertices, n_triangles, euler_characteristic, n_border_edges, .. } = record.quality;
@@ -155,6 +167,9 @@ fn summarize(name: &str, record: &RemeshRecord) {
         record.self_intersections
     ));
     record.quality.size_errors.iter().for_each(say);
+    for missed in record.missed {
+        say(format_args!("not reached: {missed}"));
+    }
     for breach in record.breaches.iter().take(NAMED) {
         let CertificateBreach { at: [x, y, z], min_angle_deg, max_angle_deg, .. } = breach;
         say(format_args!("not as the targets imply: a triangle of {min_angle_deg:.2} to {max_angle_deg:.2} degrees at ({x}, {y}, {z})"));

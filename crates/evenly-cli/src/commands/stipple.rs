@@ -78,6 +78,9 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
         say(format_args!("{}: {n_points} dots, seed {}{how}, {seconds:.2} s", targets.output.name(), args.seed));
         let way = if args.edges.is_none() { format!("; between dots the pen goes {:.2} m", 1e-3 * pen_up_mm.abs()) } else { String::new() };
         say(format_args!("paper {width} x {height} mm, pen {pen_mm:.3} mm{way}"));
+        if args.edges.is_none() {
+            ink_note(&drawn, pen_mm, paper.mm_per_px, args.pen.is_some()).into_iter().for_each(say);
+        }
     }
     if let Some(report) = &targets.report {
         let layers = drawn.iter().filter_map(|drawn| pool.install(|| drawn.report(pen_mm / paper.mm_per_px)).transpose());
@@ -224,6 +227,30 @@ impl<'a> Drawn<'a> {
             tone: wanted.compare(&self.points, &radii)?,
         }))
     }
+}
+
+/// Dots with a part of the picture's darkness within this range are told nothing of.
+const USUAL_INK: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+
+/// Says where dots cannot be as dark as the picture, or are darker, and what would do.
+fn ink_note(drawn: &[Drawn], pen_mm: f64, mm_per_px: f64, is_pen_given: bool) -> Option<String> {
+    let pen_px = pen_mm / mm_per_px;
+    let of_dots = |drawn: &Drawn| drawn.areas.iter().map(|area| 0.25 * std::f64::consts::PI * pen_px * pen_px * area).sum::<f64>();
+    let ink: f64 = drawn.iter().map(of_dots).sum();
+    let wanted: f64 = drawn.iter().map(|drawn| drawn.ink.mean_darkness * drawn.points.space().area()).sum();
+    let share = ink / wanted;
+    if !share.is_finite() || USUAL_INK.contains(&share) {
+        return None;
+    }
+    let n_points: usize = drawn.iter().map(|drawn| drawn.points.n_points()).sum();
+    let digits = if share < 0.1 { 2 } else { 0 };
+    let whole = format!("note: the dots have {:.digits$} % of the picture's darkness", 100.0 * share);
+    Some(if is_pen_given || share > 1.0 {
+        let (n_needed, pen_needed) = ((n_points as f64 / share).round(), pen_mm / share.sqrt());
+        format!("{whole}; {n_needed} dots would have all of it, or a pen of {pen_needed:.2} mm")
+    } else {
+        format!("{whole}: where it is darkest, more would make them touch; --pen, --contrast or --gamma change that")
+    })
 }
 
 /// Of a dot, in steps of a sixteenth of the pen, as dots of one size are drawn together.

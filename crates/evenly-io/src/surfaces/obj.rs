@@ -1,5 +1,7 @@
 //! Wavefront's OBJ: positions, colours of vertices, and faces. All else is skipped.
 
+use std::collections::BTreeSet;
+
 use evenly::Attribute;
 
 use super::TrianglesRead;
@@ -13,6 +15,8 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
     let mut building = Building::default();
     let mut colours: Vec<Option<[f64; 3]>> = Vec::new();
     let mut corners = Vec::new();
+    // Groups and materials, by what their lines are.
+    let mut parts: BTreeSet<(Vec<u8>, Vec<u8>)> = BTreeSet::new();
     let mut text = Text::new(name, bytes).continued();
     while let Some(mut line) = text.next_line() {
         match line.word() {
@@ -28,8 +32,15 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TrianglesRead, Error> {
                 }
                 building.push_face(&corners, line.number).map_err(|problem| line.problem(problem))?;
             }
+            Some(kind @ (b"g" | b"o" | b"usemtl")) => {
+                let kind = kind.to_vec();
+                parts.insert((kind, line.word().unwrap_or_default().to_vec()));
+            }
             _ => {}
         }
+    }
+    if parts.len() > 1 {
+        building.notes.push(format!("its {} objects, groups and materials are not kept apart", parts.len()));
     }
     building.mesh.attributes = attributes(&colours);
     building.finish(name, |line| format!("{name}:{line}"))

@@ -9,7 +9,7 @@ use self::header::{Element, Header};
 use self::values::Values;
 use super::TrianglesRead;
 use super::building::Building;
-use super::lines::Text;
+use super::lines::{Text, shown};
 use crate::Error;
 use crate::meshes::COLOURS;
 
@@ -126,6 +126,11 @@ fn read_faces(element: &Element, values: &mut Values, building: &mut Building) -
     let is_corners = |name: &str| CORNERS.contains(&name);
     if !element.properties.iter().any(|property| property.count.is_some() && is_corners(&property.name)) {
         return Err(Error::content(values.name(), "its faces have no list vertex_indices"));
+    }
+    let others = element.properties.iter().filter(|property| !is_corners(&property.name)).map(|property| property.name.as_str());
+    let others: Vec<&str> = others.collect();
+    if !others.is_empty() && element.count > 0 {
+        building.notes.push(format!("what its faces have besides corners is not kept: {}", shown(others.join(", ").as_bytes())));
     }
     let (mut numbers, mut corners) = (Vec::new(), Vec::new());
     for f in 0..element.count {

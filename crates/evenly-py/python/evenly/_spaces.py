@@ -54,7 +54,7 @@ class Polygon:
     Parameters
     ----------
     shape : object
-        A shapely polygon or multipolygon, or anything else with ``__geo_interface__``; a file (GeoJSON, WKT, SVG or text); a ring, as an array of
+        A shapely polygon or multipolygon, or anything else with ``__geo_interface__``; a file (GeoJSON, WKT, SVG, shapefile or text); a ring, as an array of
         shape (n, 2); or a list of rings, the first of which is the outer one and the others its holes.
 
     Raises

@@ -89,6 +89,7 @@ def stipple(
     contrast: float = 1.0,
     gamma: float = 1.0,
     floor: float = 0.0,
+    white: float = 1.0,
     layers: Literal["black", "cmyk"] = "black",
     sizes: Literal["constant", "tone"] = "constant",
     order: Literal["tour", "progressive", "input"] = "tour",
@@ -114,6 +115,8 @@ def stipple(
         Light counts instead of dark.
     contrast, gamma, floor : float
         Tones are spread from the middle grey by `contrast`, raised to `gamma`, and no darkness is below `floor`.
+    white : float
+        Where the picture is lighter than this, from 0 to 1, there are no dots.
     layers : {'black', 'cmyk'}
         One layer, or one a colour.
     sizes : {'constant', 'tone'}
@@ -153,6 +156,7 @@ def stipple(
             "contrast": contrast,
             "gamma": gamma,
             "floor": floor,
+            "white": white,
             "layers": layers,
             "sizes": sizes,
             "order": order,

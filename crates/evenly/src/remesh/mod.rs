@@ -16,6 +16,7 @@
 
 mod anchors;
 mod chains;
+mod coarse;
 mod collapse;
 mod draft;
 mod eliminate;
@@ -208,6 +209,9 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
     let start = start(surface, &features, &sizes, params.n_points, &given, params.seed)?;
     report.triangulations = 1;
     note_given(surface, &given, params.n_points, start.n_given, &mut report);
+    if let Some(warning) = coarse::warning(surface, &start, params.n_points) {
+        run.warn(warning, &mut report);
+    }
 
     // 2. They move until all is as it should be.
     let live = settle(LiveSurface::new(surface, &features, &sizes, start), params, run, &mut report)?;
