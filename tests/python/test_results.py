@@ -170,3 +170,30 @@ def test_figures_return_their_axes(tmp_path):
     assert plot.points(evenly.generate(50, space=SQUARE)).collections
     assert plot.report(points).shape == (2, 2)
     plt.close("all")
+
+
+def test_regions_are_kept_apart_and_survive_being_saved(tmp_path):
+    left, right = [(0, 0), (1, 0), (1, 1), (0, 1)], [(1, 0), (2, 0), (2, 1), (1, 1)]
+    mesh = evenly.mesh(regions={"left": left, "right": right}, spacing=0.1)
+    assert mesh.region_names == ("left", "right") and mesh.regions.shape == (len(mesh.triangles),)
+    middles = mesh.vertices[mesh.triangles].mean(axis=1)
+    assert np.array_equal(mesh.regions, (middles[:, 0] > 1).astype(int))
+    between = mesh.edges[mesh.tags == evenly.Mesh.BETWEEN]
+    assert len(between) >= 9 and np.all(mesh.vertices[between][:, :, 0] == 1)
+    # As by the command line, which has the parts of a file.
+    (tmp_path / "parts.wkt").write_text("MULTIPOLYGON(((0 0,1 0,1 1,0 1,0 0)),((1 0,2 0,2 1,1 1,1 0)))")
+    of_file = evenly.mesh(regions=tmp_path / "parts.wkt", spacing=0.1)
+    assert np.array_equal(of_file.vertices, mesh.vertices) and of_file.region_names == ("region 1", "region 2")
+    mesh.save(tmp_path / "mesh.msh")
+    assert '"right"' in (tmp_path / "mesh.msh").read_text()
+    assert len(evenly.mesh(left, spacing=0.3).regions) == 0
+    for bad in ({"regions": []}, {"regions": 3}, {"regions": {"left": left}, "simplify": 0.1}, {}):
+        with pytest.raises(ValueError, match="region|polygon"):
+            evenly.mesh(spacing=0.1, **bad)
+
+
+def test_a_mesh_with_sharp_corners_is_saved_whole(tmp_path):
+    mesh = evenly.mesh([(0, 0), (4, 0), (4, 0.5)], spacing=0.1)
+    assert mesh.n_in_corners > 0
+    mesh.save(tmp_path / "mesh.svg")
+    assert mesh.svg() == mesh.svg() and (tmp_path / "mesh.svg").read_text().startswith("<svg")

@@ -97,7 +97,8 @@ pub fn notes_on(surface: &Surface) -> Vec<String> {
     surface.notes().iter().cloned().chain(seams).collect()
 }
 
-/// Makes a new mesh, from given points if there are any; of wishes in words see [`wishes`].
+/// Makes a new mesh, from given points if there are any; of wishes in words see [`wishes`]. What is measured is
+/// the mesh as it will be written: `round` brings its positions to the precision of a file.
 ///
 /// # Errors
 /// As [`remesh`], with the names of flags; `name` is the mesh's.
@@ -107,6 +108,7 @@ pub fn remeshed(
     wishes: &RemeshWishes,
     sizing: Option<&SurfaceSizing>,
     points: Vec<[f64; 3]>,
+    round: impl FnOnce(&mut TriangleMesh),
     run: &mut RunContext,
 ) -> anyhow::Result<Made> {
     let told = |e| told(e, name, &FLAGS);
@@ -132,7 +134,8 @@ pub fn remeshed(
     let default = if sizes.is_empty() { RemeshParams::default().tolerance } else { Some(SIZED_TOLERANCE) };
     let tolerance = wishes.tolerance.map_or(default, |target| target.0.map(|length| length / spacing));
     let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, points, seed: wishes.seed };
-    let (remeshed, mut report) = remesh(surface, &params, run).map_err(told)?;
+    let (mut remeshed, mut report) = remesh(surface, &params, run).map_err(told)?;
+    round(&mut remeshed.mesh);
     if n_equal > 0 {
         report.notes.push(format!("points in the place of an earlier one, left out: {n_equal}"));
     }

@@ -164,6 +164,11 @@ pub fn stl_rounding(mesh: &TriangleMesh) -> Option<String> {
     ))
 }
 
+/// Gives a mesh the positions that it has as STL.
+pub fn round_as_stl(mesh: &mut TriangleMesh) {
+    mesh.vertices.as_flattened_mut().iter_mut().for_each(|x| *x = f64::from(*x as f32));
+}
+
 /// Draws meshes, shaded, side by side under their captions where there are several. The recipe goes along as a comment.
 ///
 /// # Errors

@@ -28,6 +28,7 @@ fn _evenly(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(points::rendered, module)?)?;
     module.add_function(wrap_pyfunction!(spaces::polygon, module)?)?;
     module.add_function(wrap_pyfunction!(spaces::read_polygon, module)?)?;
+    module.add_function(wrap_pyfunction!(spaces::read_regions, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::mesh, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::write_mesh, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::mesh_figure, module)?)?;

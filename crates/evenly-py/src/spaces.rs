@@ -89,6 +89,13 @@ pub fn read_polygon(py: Python, path: PathBuf) -> PyResult<Clean> {
     py.detach(|| Ok(clean(&evenly_io::read_polygon(&path, None).map_err(value_error)?)))
 }
 
+/// The parts of a file, by their names.
+#[pyfunction]
+pub fn read_regions(py: Python, path: PathBuf) -> PyResult<Vec<(String, Clean)>> {
+    let (_, regions) = py.detach(|| evenly_io::read_regions(&path, None)).map_err(value_error)?;
+    Ok(regions.iter().map(|(name, polygon)| (name.clone(), clean(polygon))).collect())
+}
+
 fn clean(polygon: &Polygon) -> Clean {
     (polygon.rings().to_vec(), polygon.area(), polygon.repairs().to_vec())
 }

@@ -78,7 +78,7 @@ pub fn remesh(
             Some(points) => points,
             None => remeshed::points(&wishes)?,
         };
-        let made = remeshed(&surface, &name, &wishes, sizing.as_ref(), points, context)?;
+        let made = remeshed(&surface, &name, &wishes, sizing.as_ref(), points, |_| {}, context)?;
         notes.extend(made.report.notes.iter().cloned());
         let said = json(&serde_json::json!({
             "quality": made.quality,

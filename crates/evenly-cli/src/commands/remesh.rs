@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, CertificateBreach, Outcome, Report, RunContext, SurfaceDistance, SurfaceQuality};
-use evenly_io::{MeshFormat, Target, read_triangles, stl_rounding, write_triangles, write_triangles_figure};
+use evenly::{CancelToken, CertificateBreach, Outcome, Report, RunContext, SurfaceDistance, SurfaceQuality, TriangleMesh};
+use evenly_io::{MeshFormat, Target, read_triangles, round_as_stl, stl_rounding, write_triangles, write_triangles_figure};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -35,6 +35,7 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let mut warned: Vec<String> = Vec::new();
+    let mut rounding = None;
     let made = pool.install(|| {
         let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
         if !args.run.quiet {
@@ -43,15 +44,19 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
                 bar.suspend(|| say(format_args!("note: {warning}")));
             });
         }
-        remeshed(&surface, &args.input, wishes, sizing.as_ref(), points, &mut context)
+        let round = |mesh: &mut TriangleMesh| {
+            if targets.format == MeshFormat::Stl {
+                rounding = stl_rounding(mesh);
+                round_as_stl(mesh);
+            }
+        };
+        remeshed(&surface, &args.input, wishes, sizing.as_ref(), points, round, &mut context)
     });
     bar.finish_and_clear();
     let Made { remeshed, quality, distance, self_intersections, breaches, missed, report, parameters } = made?;
     notes.extend(report.notes.iter().cloned());
 
-    if targets.format == MeshFormat::Stl {
-        notes.extend(stl_rounding(&remeshed.mesh));
-    }
+    notes.extend(rounding);
     let recipe = record::recipe(Some(wishes.seed));
     write_triangles(&with_places(&remeshed), targets.format, &recipe, &targets.mesh)?;
     if let Some(plot) = &targets.plot {

@@ -31,6 +31,7 @@ __all__ = [
     "power_spectrum",
     "radial_spectrum",
     "read_polygon",
+    "read_regions",
     "remesh",
     "rendered",
     "sample",
@@ -79,22 +80,20 @@ def figure(points: _Rows, space: _Space, density: _Density, draw: list[str]) -> 
 def rendered(svg: str) -> bytes: ...
 def polygon(parts: _Parts) -> _Clean: ...
 def read_polygon(path: str) -> _Clean: ...
+def read_regions(path: str) -> list[tuple[str, _Clean]]: ...
 def mesh(
     rings: _Rings,
     words: list[str],
     fixed: _Rows,
     lines: list[_Rows],
     sizes: _Rows | None,
+    regions: Sequence[tuple[str, _Rings]],
     wanted: _Density,
     threads: int | None,
     callback: _Callback,
-) -> tuple[_Rows, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str, list[float]]: ...
-def write_mesh(
-    path: str, vertices: _Rows, triangles: NDArray[np.int64], edges: NDArray[np.int64], tags: list[int], sizes: list[float]
-) -> None: ...
-def mesh_figure(
-    vertices: _Rows, triangles: NDArray[np.int64], edges: NDArray[np.int64], tags: list[int]
-) -> str: ...
+) -> tuple[_Rows, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str, list[float], NDArray[np.int64]]: ...
+def write_mesh(path: str, parts: dict[str, object]) -> None: ...
+def mesh_figure(parts: dict[str, object]) -> str: ...
 def stipple(
     picture: NDArray[np.float32] | str,
     n: int,

@@ -3,9 +3,9 @@
 import json
 import math
 import os
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Literal
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +72,8 @@ class Mesh(Frozen):
     edges: NDArray[np.int64]
     """Of shape (k, 2): the edges on the border, with the inside on their left, and on lines."""
     tags: NDArray[np.int64]
-    """Of each edge: the segment of the border, counted through all of the polygon's rings; or -1, -2, ... for the first line, the second, ..."""
+    """Of each edge: the segment of the border, counted through all of the polygon's rings; or -1, -2, ... for the first line, the second, ...;
+    or `Mesh.BETWEEN` where two regions meet."""
     edge_length: Floats
     """Of shape (n,): the length of edges that is wanted at each vertex, shorter than was asked for where the border is detailed."""
     quality: MeshQuality
@@ -85,6 +86,15 @@ class Mesh(Frozen):
     """What is good to know."""
     unmet: tuple[str, ...] = ()
     """Where a demand was not met, and why."""
+    regions: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    """Of shape (m,): the region in which each triangle lies, -1 for none; empty where there are no regions."""
+    region_names: tuple[str, ...] = ()
+    """The regions' names."""
+    n_in_corners: int = 0
+    """So many triangles, the last ones, lie in corners of the polygon that are sharper than 60 degrees."""
+
+    BETWEEN: ClassVar[int] = -(2**63)
+    """The tag of edges between two regions."""
 
     def __repr__(self) -> str:
         q = self.quality
@@ -93,11 +103,16 @@ class Mesh(Frozen):
 
     def save(self, path: "str | os.PathLike[str]") -> None:
         """Write the mesh as .msh (Gmsh 4.1), .vtu, .obj, .ply, .off, .stl, .geojson, .npz, .svg, .png or .pdf, as the path says."""
-        _evenly.write_mesh(os.fspath(path), self.vertices, self.triangles, self.edges, self.tags.tolist(), self.edge_length.tolist())
+        _evenly.write_mesh(os.fspath(path), self._parts())
+
+    def _parts(self) -> dict[str, object]:
+        lists = {name: getattr(self, name).tolist() for name in ("tags", "edge_length", "regions")}
+        names = ("vertices", "triangles", "edges", "region_names", "n_in_corners")
+        return {name: getattr(self, name) for name in names} | lists
 
     def svg(self) -> str:
         """Draw the mesh: obtuse triangles light red, thin ones red."""
-        return _evenly.mesh_figure(self.vertices, self.triangles, self.edges, self.tags.tolist())
+        return _evenly.mesh_figure(self._parts())
 
     def _repr_svg_(self) -> str | None:
         return self.svg() if len(self.triangles) <= _MANY else None
@@ -107,7 +122,7 @@ class Mesh(Frozen):
 
 
 def mesh(
-    polygon: object,
+    polygon: object = None,
     *,
     spacing: float | None = None,
     n_triangles: int | None = None,
@@ -123,6 +138,7 @@ def mesh(
     no_obtuse: bool = False,
     fixed: "ArrayLike | object | None" = None,
     lines: "Sequence[ArrayLike | object] | None" = None,
+    regions: "Mapping[str, object] | Sequence[object] | str | os.PathLike[str] | None" = None,
     threads: int | None = None,
     callback: Callback | None = None,
 ) -> Mesh:
@@ -131,7 +147,7 @@ def mesh(
     Parameters
     ----------
     polygon : Polygon, shapely polygon, file, ring or rings
-        See `Polygon`.
+        See `Polygon`. May be left out with `regions`: what these cover together.
     spacing : float, optional
         The wanted length of edges, in input units; shorter where the border is detailed or the domain narrow. This or `n_triangles`.
     n_triangles : int, optional
@@ -160,6 +176,9 @@ def mesh(
         Points that become vertices.
     lines : sequence of array_like of shape (k, 2), optional
         Lines that become edges, split where they cross and clipped at the border; they are no slits: triangles on both sides share their vertices.
+    regions : mapping or sequence of polygons, or a file, optional
+        Parts that are kept apart: no triangle lies in two, and `Mesh.regions` tells for each in which. Of a file: features of GeoJSON, polygons of WKT, shapes
+        of SVG or of a shapefile, rings of text.
     threads, callback
         As in `generate`.
 
@@ -185,7 +204,12 @@ def mesh(
     """
     if (spacing is None) == (n_triangles is None):
         raise ValueError("give either spacing or n_triangles")
-    shape = polygon if isinstance(polygon, Polygon) else Polygon(polygon)
+    parts = _named(regions)
+    if polygon is None and not parts:
+        raise ValueError("give a polygon, or regions")
+    if simplify is not None and parts:
+        raise ValueError("simplify would part regions that touch; simplify them before")
+    shape = polygon if polygon is None or isinstance(polygon, Polygon) else Polygon(polygon)
     chance = number(seed)
     options = words(
         {
@@ -204,10 +228,16 @@ def mesh(
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     ways = [rows(line, f"line {k}") for k, line in enumerate(lines or ())]
     lengths = None if sizes is None else rows(sizes, "sizes", 3, may_be_empty=True)
-    wanted = density_of(density, shape)
+    if density is not None and shape is None:
+        raise ValueError("density spans the polygon's frame; give the polygon too")
+    wanted = None if shape is None else density_of(density, shape)
+    outer = [] if shape is None else [list(ring) for ring in shape.rings]
+    repairs = () if shape is None else shape.repairs
 
-    def build(answer: tuple[Floats, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str, list[float]]) -> Mesh:
-        vertices, triangles, edges, tags, text, lengths = answer
+    def build(
+        answer: tuple[Floats, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str, list[float], NDArray[np.int64]],
+    ) -> Mesh:
+        vertices, triangles, edges, tags, text, lengths, regions = answer
         said: dict[str, Any] = json.loads(text)
         quality: dict[str, Any] = {name: math.nan if value is None else value for name, value in said["quality"].items()}
         return Mesh(
@@ -219,10 +249,32 @@ def mesh(
             quality=MeshQuality(**{each.name: quality[each.name] for each in fields(MeshQuality)}),
             seed=chance,
             outcome=said["run"]["outcome"],
-            notes=(*shape.repairs, *said["notes"]),
+            notes=(*repairs, *said["notes"]),
             unmet=tuple(said["unmet"]),
+            regions=frozen(regions),
+            region_names=tuple(said["region_names"]),
+            n_in_corners=said["n_in_corners"],
         )
 
     return run(
-        lambda: _evenly.mesh([list(ring) for ring in shape.rings], options, held, ways, lengths, wanted, threads_of(threads), told(callback)), build
+        lambda: _evenly.mesh(outer, options, held, ways, lengths, parts, wanted, threads_of(threads), told(callback)),
+        build,
     )
+
+
+def _named(regions: object) -> list[tuple[str, list[list[tuple[float, float]]]]]:
+    """Return the rings of each region, by its name."""
+    if regions is None:
+        return []
+    if isinstance(regions, (str, os.PathLike)):
+        return [(name, [list(ring) for ring in rings]) for name, (rings, _, _) in _evenly.read_regions(os.fspath(regions))]
+    if isinstance(regions, Mapping):
+        named = [(str(name), shape) for name, shape in regions.items()]
+    elif isinstance(regions, Sequence):
+        named = [(f"region {k}", shape) for k, shape in enumerate(regions, 1)]
+    else:
+        raise ValueError(f"regions is {type(regions).__name__}; it must be a mapping or a sequence of polygons, or a file")
+    if not named:
+        raise ValueError("regions is empty; leave it out")
+    polygons = [(name, shape if isinstance(shape, Polygon) else Polygon(shape)) for name, shape in named]
+    return [(name, [list(ring) for ring in shape.rings]) for name, shape in polygons]
