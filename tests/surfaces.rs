@@ -505,3 +505,27 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn as_few_vertices_as_corners_do() {
+    let corner_counts = [
+        (cube(3), 8),
+        (
+            TriangleMesh {
+                vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+                triangles: vec![[0, 1, 2]],
+                ..TriangleMesh::default()
+            },
+            3,
+        ),
+    ];
+    for (mesh, n_corners) in corner_counts {
+        let surface = Surface::new(&mesh).unwrap();
+        for n_points in n_corners..n_corners + 12 {
+            let (remeshed, _) =
+                remesh(&surface, &RemeshParams { n_points, ..RemeshParams::default() }, &mut RunContext::default()).unwrap();
+            assert_eq!(remeshed.mesh.vertices.len(), n_points);
+            assert!(Surface::new(&remeshed.mesh).unwrap().euler_characteristic() == surface.euler_characteristic());
+        }
+    }
+}

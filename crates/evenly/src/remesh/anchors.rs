@@ -92,7 +92,7 @@ mod tests {
         let surface = star();
         let (features, sizes) = (Features::borders(&surface), vec![1.0; surface.n_vertices()]);
         for (n, seed) in (40..80).zip(0..) {
-            let start = start(&surface, &features, &sizes, n, &[], seed).unwrap();
+            let start = start(&surface, &features, &sizes, n, &[], seed).unwrap().unwrap();
             let mut live = LiveSurface::new(&surface, &features, &sizes, start);
             live.legalize();
             let places = |live: &LiveSurface| (0..n as u32).map(|v| live.at(v)).collect::<Vec<_>>();

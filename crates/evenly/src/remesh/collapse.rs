@@ -99,7 +99,7 @@ impl Draft<'_> {
         if n_common != n_apexes || n_neighbours[0] + n_neighbours[1] > MOST_NEIGHBOURS + 4 {
             return false;
         }
-        if self.is_on_border(v) && (!is_border_edge || n_neighbours[0] + n_neighbours[1] < 6)
+        if self.is_on_border(v) && (!is_border_edge || n_neighbours[0] + n_neighbours[1] < 5)
             || n_neighbours[0] + n_neighbours[1] < 7 - 2 * usize::from(is_border_edge)
         {
             return false;

@@ -200,13 +200,25 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
     params.validate(surface)?;
     let mut report = Report::new(params.method.name(), params.n_points);
     let sizes = relative_sizes(surface, &params.sizes);
-    let features = Features::new(surface, params.features_deg, start::spacing(surface, params.n_points));
+    let mut features = Features::new(surface, params.features_deg, start::spacing(surface, params.n_points));
 
     // 1. Exactly so many vertices, with the surface's topology.
     run.enter(Phase::Triangulate);
     let inside: Vec<_> = params.points.iter().map(|&p| surface.frame.inward(p)).collect();
     let given = given::places(surface, &inside);
-    let start = start(surface, &features, &sizes, params.n_points, &given, params.seed)?;
+    let begin = |features: &Features| start(surface, features, &sizes, params.n_points, &given, params.seed);
+    let mut started = begin(&features)?;
+    if let (Err(least), Some(_)) = (&started, params.features_deg) {
+        // So few may stand at the corners alone, of creases that are short for them.
+        let least = *least;
+        features = Features::new(surface, params.features_deg, 0.0);
+        started = begin(&features)?.map_err(|of_creases| least.min(of_creases));
+    }
+    let start = started.map_err(|least| Error::InvalidParameter {
+        name: "n_points",
+        value: format!("{} where no fewer than {least} are possible", params.n_points),
+        expected: "as many as the mesh's shape and its features need; without features fewer do",
+    })?;
     report.triangulations = 1;
     note_given(surface, &given, params.n_points, start.n_given, &mut report);
     if let Some(warning) = coarse::warning(surface, &start, params.n_points) {

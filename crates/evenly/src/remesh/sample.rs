@@ -90,9 +90,9 @@ pub fn sample_surface(
         SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if n < LEAST_OF_PART * surface.n_components() => Ok(by_distance(n)),
         SurfaceSampling::Eliminate(n) => {
             let sizes = vec![1.0; surface.n_vertices()];
-            match start(surface, &features, &sizes, n, &[], seed) {
-                Err(e) if is_too_few(&e) => Ok(by_distance(n)),
-                start => done("eliminate", start?.vertices.iter().map(|vertex| vertex.shown(surface)).collect()),
+            match start(surface, &features, &sizes, n, &[], seed)? {
+                Err(_) => Ok(by_distance(n)),
+                Ok(start) => done("eliminate", start.vertices.iter().map(|vertex| vertex.shown(surface)).collect()),
             }
         }
         SurfaceSampling::PushPull(n_points) => {

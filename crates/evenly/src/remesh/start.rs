@@ -13,10 +13,11 @@ pub(super) fn spacing(surface: &Surface, n_points: usize) -> f64 {
     (2.0 * surface.inner_area() / (3f64.sqrt() * n_points as f64)).sqrt()
 }
 
-/// Splits and collapses edges of the surface until exactly so many vertices are left; of given places, if there are any.
+/// Splits and collapses edges of the surface until exactly so many vertices are left; of given places, if there are any. How many
+/// are needed, where the features and the topology do not let it be so few.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] for fewer points than the features and the topology need, and two given places that are one.
+/// [`Error::InvalidParameter`] for two given places that are one.
 pub(super) fn start(
     surface: &Surface,
     features: &Features,
@@ -24,19 +25,15 @@ pub(super) fn start(
     n_points: usize,
     given: &[(Place, f64)],
     seed: u64,
-) -> Result<Start, Error> {
+) -> Result<Result<Start, usize>, Error> {
     let mut least = usize::MAX;
     for round in 0..ROUNDS {
         match attempt(surface, features, sizes, n_points, given, seed.wrapping_add(round as u64), SPARING.powi(round.min(SPARINGS)))? {
-            Ok(start) => return Ok(start),
+            Ok(start) => return Ok(Ok(start)),
             Err(n) => least = least.min(n),
         }
     }
-    Err(Error::InvalidParameter {
-        name: "n_points",
-        value: format!("{n_points} where no fewer than {least} are possible"),
-        expected: "as many as the mesh's shape and its features need; without features fewer do",
-    })
+    Ok(Err(least))
 }
 
 /// Where creases and borders leave too few vertices for the rest, they have so many times fewer in the next round, up to some; what is
