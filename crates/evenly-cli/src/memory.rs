@@ -23,6 +23,13 @@ static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
 const NEARLY: f64 = 0.95;
 /// How often that is looked at.
 const EVERY: Duration = Duration::from_millis(20);
+/// No limit is below this, in bytes: the program itself needs as much.
+const LEAST: f64 = 5e7;
+/// A point takes about so many bytes while it is moved or chosen among many, and while it is only put and measured.
+const OF_MOVING: u64 = 450;
+const OF_PUTTING: u64 = 150;
+/// A vertex of a surface, with its triangles, while it is moved.
+const OF_VERTEX: u64 = 1000;
 
 /// Keeps the process within its limit, of this many bytes if any are given.
 pub fn keep_within(bytes: Option<u64>) {
@@ -48,12 +55,6 @@ pub fn keep_within(bytes: Option<u64>) {
         end(limit);
     });
 }
-
-/// A point takes about so many bytes while it is moved or chosen among many, and while it is only put and measured.
-const OF_MOVING: u64 = 450;
-const OF_PUTTING: u64 = 150;
-/// A vertex of a surface, with its triangles, while it is moved.
-const OF_VERTEX: u64 = 1000;
 
 /// That so many points by a method fit.
 pub fn require_points(n_points: usize, method: Method) -> anyhow::Result<()> {
@@ -106,9 +107,6 @@ pub fn parse(text: &str) -> Result<u64, String> {
         None => Err("it must be a size such as 8GB or 500MB, 50MB at least".into()),
     }
 }
-
-/// The program itself needs as much.
-const LEAST: f64 = 5e7;
 
 #[cfg(test)]
 mod tests {
