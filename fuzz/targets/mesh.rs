@@ -8,7 +8,7 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {
     let Some(([spacing, n_corners], rest)) = shapes::split(data) else { return };
-    let corners: Vec<[f64; 2]> = shapes::places(&rest[..rest.len().min(120)]);
+    let corners: Vec<[f64; 2]> = shapes::places(&rest[..rest.len().min(40)]);
     let rings = corners.chunks(usize::from(n_corners % 16) + 3).map(<[_]>::to_vec).collect();
     // As all faces do: what nearly touches would ask for triangles as small.
     let Ok(polygon) = Polygon::from_rings(rings).and_then(|polygon| polygon.welded(1e-6 * polygon.area().sqrt())) else { return };

@@ -48,13 +48,16 @@ impl CancelToken {
     }
 }
 
+/// What is called with a warning.
+type Warn<'a> = Box<dyn FnMut(&str) + 'a>;
+
 /// Progress and cancel for one run. `RunContext::default()` is silent and cannot be cancelled.
 ///
 /// Threads are rayon's: run inside `ThreadPool::install` to choose how many. The result does not depend on it.
 #[derive(Default)]
 pub struct RunContext<'a> {
     progress: Option<Box<dyn FnMut(Progress) + 'a>>,
-    warning: Option<Box<dyn FnMut(&str) + 'a>>,
+    warning: Option<Warn<'a>>,
     cancel: CancelToken,
 }
 
