@@ -34,7 +34,8 @@ Exit codes: 0 done; 1 done, but not converged or a target not reached; 2 bad usa
 #[command(name = "evenly", version, after_help = EXAMPLES, max_term_width = 110)]
 pub struct Cli {
     /// The most memory that a run may use, as 8GB or 500MB [default: three quarters of the machine's]
-    #[arg(long, value_name = "SIZE", global = true, value_parser = memory::parse, hide_short_help = true, help_heading = "Output")]
+    #[arg(long, value_name = "SIZE", value_parser = memory::parse)]
+    #[arg(global = true, hide_short_help = true, help_heading = "Output")]
     pub memory: Option<u64>,
     #[command(subcommand)]
     pub command: Command,

@@ -28,7 +28,7 @@ pub fn notes(report: &Report) -> Vec<String> {
         notes.push(format!("{} points shared their place with another and were moved apart", report.coincident_points));
     }
     if report.was_collinear {
-        notes.push("all points lay on one line and were spread first".into());
+        notes.push("all points lay on or near one line and were spread first".into());
     }
     notes
 }

@@ -14,7 +14,6 @@ mod mesh_args;
 pub mod meshed;
 mod method;
 mod method_args;
-mod missed;
 mod optimizer;
 mod page;
 mod parse;

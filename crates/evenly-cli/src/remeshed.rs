@@ -5,9 +5,10 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use evenly::{
-    Attribute, CertificateBreach, DistMeshParams, LloydParams, OptBetaParams, Outcome, PushPullParams, RemeshMethod, RemeshParams,
-    Remeshed, Report, RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, WellSpacedParams,
-    certificate, expected_vertices, remesh, self_intersections, surface_distance, surface_quality, surface_sizes,
+    Attribute, CertificateBreach, DistMeshParams, LloydParams, MissedLengths, OptBetaParams, Outcome, PushPullParams, RemeshMethod,
+    RemeshParams, Remeshed, Report, RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh,
+    WellSpacedParams, certificate, expected_vertices, missed_lengths, remesh, self_intersections, surface_distance, surface_quality,
+    surface_sizes,
 };
 use evenly_io::{read_numbers, read_triangles_or_points};
 use serde_json::Value;
@@ -15,7 +16,6 @@ use serde_json::Value;
 use crate::measured::told;
 use crate::memory;
 use crate::method_args::set;
-use crate::missed::{Missed, missed, worst_first};
 use crate::parse::read_words;
 use crate::remesh_args::RemeshRule;
 pub use crate::remesh_args::RemeshWishes;
@@ -54,7 +54,7 @@ pub struct Made {
     /// Triangles whose angles are not what the targets imply; none for methods without targets.
     pub breaches: Vec<CertificateBreach>,
     /// Lengths that are not what was asked for, where the run has not converged.
-    pub missed: Vec<Missed>,
+    pub missed: Vec<MissedLengths>,
     /// How it came about.
     pub report: Report,
     /// What was asked for.
@@ -144,7 +144,12 @@ pub fn remeshed(
     report.notes.extend(made.notes().iter().map(|note| format!("in the new mesh, as measured: {note}")));
     let mut breaches = targets(&method).map_or_else(Vec::new, |beta| certificate(&made, beta));
     worst_first(&mut breaches);
-    let missed = if report.outcome == Outcome::IterationLimit { missed(&remeshed.mesh, &method) } else { Vec::new() };
+    let missed = match method {
+        RemeshMethod::PushPull(params) if report.outcome == Outcome::IterationLimit => {
+            missed_lengths(&made, params.min_distance, params.coverage_radius)
+        }
+        _ => Vec::new(),
+    };
     Ok(Made {
         quality: surface_quality(&made),
         distance: surface_distance(&made, surface),
@@ -155,6 +160,12 @@ pub fn remeshed(
         remeshed,
         report,
     })
+}
+
+/// Puts the worst triangles first: those with the smallest angles, or the largest.
+fn worst_first(breaches: &mut [CertificateBreach]) {
+    let worst = |breach: &CertificateBreach| breach.min_angle_deg.min(0.5 * (180.0 - breach.max_angle_deg));
+    breaches.sort_by(|a, b| worst(a).total_cmp(&worst(b)).then(a.triangle.cmp(&b.triangle)));
 }
 
 /// The mesh with what its vertices know of the surface as attributes.

@@ -128,7 +128,9 @@ pub struct ToneArgs {
     /// The least darkness, from 0 to 1: more than 0 leaves no paper empty
     #[arg(long, value_name = "F", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Tone")]
     floor: f64,
-    /// Leave the paper empty where the picture is lighter than this, from 0 to 1; with --invert, where it is darker than 1 less this
+    /// Leave the paper empty where the picture is lighter than this, from 0 to 1
+    ///
+    /// With --invert, where it is darker than 1 less this.
     #[arg(long, value_name = "W", default_value_t = 1.0, allow_negative_numbers = true, help_heading = "Tone")]
     white: f64,
 }

@@ -68,8 +68,8 @@ pub(crate) fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Error> {
         let length = file.metadata().map_or(0, |of| of.len());
         (Box::new(file), length)
     };
-    // Streams, and what is no plain file, do not tell how long they are.
-    require(&name, length)?;
+    // What is read takes as much again. Streams, and what is no plain file, do not tell how long they are.
+    require(&name, length.saturating_mul(2))?;
     let mut bytes = Vec::with_capacity(length as usize);
     source.take(most / 2).read_to_end(&mut bytes).map_err(Error::io(&name))?;
     if bytes.len() as u64 == most / 2 {

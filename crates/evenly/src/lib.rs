@@ -60,8 +60,9 @@ pub use remesh::{RemeshMethod, RemeshParams, Remeshed, SurfacePoint, SurfaceSamp
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Region, Space, Torus};
 pub use surface::{
-    Attribute, CertificateBreach, Surface, SurfaceDistance, SurfaceMeasures, SurfaceQuality, SurfaceSizing, TriangleMesh, certificate,
-    expected_vertices, measure_on_surface, self_intersections, surface_distance, surface_quality, surface_sizes, surface_spectrum,
+    Attribute, CertificateBreach, MissedLengths, Surface, SurfaceDistance, SurfaceMeasures, SurfaceQuality, SurfaceSizing, TriangleMesh,
+    certificate, expected_vertices, measure_on_surface, missed_lengths, self_intersections, surface_distance, surface_quality,
+    surface_sizes, surface_spectrum,
 };
 pub use sweep::Schedule;
 pub use tour::tour;

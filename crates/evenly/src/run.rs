@@ -159,7 +159,7 @@ pub struct Report {
     pub inverted_triangles: usize,
     /// Points of the input that shared their place with another, and were moved apart.
     pub coincident_points: usize,
-    /// Whether all points lay on one line and were spread first.
+    /// Whether all points lay on one line, or in a polygon near one, and were spread first.
     pub was_collinear: bool,
     /// How often the triangulation was built anew.
     pub triangulations: usize,

@@ -4,12 +4,11 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, CertificateBreach, Outcome, Report, RunContext, SurfaceDistance, SurfaceQuality, TriangleMesh};
+use evenly::{CancelToken, CertificateBreach, MissedLengths, Outcome, Report, RunContext, SurfaceDistance, SurfaceQuality, TriangleMesh};
 use evenly_io::{MeshFormat, Target, read_triangles, round_as_stl, stl_rounding, write_triangles, write_triangles_figure};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::missed::Missed;
 use crate::remesh_args::Remesh;
 use crate::remeshed::{Made, notes_on, points, remeshed, sizing, surface_of, welded, with_places};
 use crate::talk::say;
@@ -143,7 +142,7 @@ struct RemeshRecord<'a> {
     /// Triangles whose angles are not what the targets imply, the worst first.
     breaches: &'a [CertificateBreach],
     /// Lengths that are not what was asked for, where the run has not converged.
-    missed: &'a [Missed],
+    missed: &'a [MissedLengths],
     notes: &'a [String],
     seconds: f64,
 }

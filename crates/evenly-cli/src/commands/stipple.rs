@@ -229,17 +229,20 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// Dots with a part of the picture's darkness within this range are told nothing of.
+/// Of dots with a part of the picture's darkness within this range nothing is said. The widest dots that do not
+/// touch are paler than the picture by design.
 const USUAL_INK: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+const USUAL_OF_WIDEST: f64 = 0.5;
 
-/// Says where dots cannot be as dark as the picture, or are darker, and what would do.
+/// Says that dots are much paler than the picture, or darker, and what would do.
 fn ink_note(drawn: &[Drawn], pen_mm: f64, mm_per_px: f64, is_pen_given: bool) -> Option<String> {
     let pen_px = pen_mm / mm_per_px;
     let of_dots = |drawn: &Drawn| drawn.areas.iter().map(|area| 0.25 * std::f64::consts::PI * pen_px * pen_px * area).sum::<f64>();
     let ink: f64 = drawn.iter().map(of_dots).sum();
     let wanted: f64 = drawn.iter().map(|drawn| drawn.ink.mean_darkness * drawn.points.space().area()).sum();
     let share = ink / wanted;
-    if !share.is_finite() || USUAL_INK.contains(&share) {
+    let is_usual = USUAL_INK.contains(&share) || !is_pen_given && (USUAL_OF_WIDEST..1.0).contains(&share);
+    if !share.is_finite() || is_usual {
         return None;
     }
     let n_points: usize = drawn.iter().map(|drawn| drawn.points.n_points()).sum();

@@ -70,7 +70,7 @@ impl LiveSurface<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::remesh::start::start;
+    use crate::remesh::start::{Wanted, start};
     use crate::surface::{Features, Surface, TriangleMesh};
 
     /// A thin star of eight points, which a coarse mesh cannot follow.
@@ -92,7 +92,8 @@ mod tests {
         let surface = star();
         let (features, sizes) = (Features::borders(&surface), vec![1.0; surface.n_vertices()]);
         for (n, seed) in (40..80).zip(0..) {
-            let start = start(&surface, &features, &sizes, n, &[], seed).unwrap().unwrap();
+            let start =
+                start(Wanted { surface: &surface, features: &features, sizes: &sizes, n_points: n, given: &[], seed }).unwrap().unwrap();
             let mut live = LiveSurface::new(&surface, &features, &sizes, start);
             live.legalize();
             let places = |live: &LiveSurface| (0..n as u32).map(|v| live.at(v)).collect::<Vec<_>>();

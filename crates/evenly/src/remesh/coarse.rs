@@ -1,4 +1,4 @@
-//! Whether there are vertices enough for a surface: what a mesh of so few loses of its area and volume.
+//! Whether a surface gets enough vertices: how much of its area and volume so coarse a mesh loses.
 
 use glam::DVec3;
 
@@ -9,6 +9,9 @@ use crate::surface::Surface;
 const MUCH: f64 = 0.05;
 const LITTLE: f64 = 0.01;
 
+/// A volume below this part of that of a cube with as much area cannot be compared: as of two sheets.
+const THIN: f64 = 1e-3;
+
 /// What there is to say of a start with too few vertices.
 pub(super) fn warning(surface: &Surface, start: &Start, n_points: usize) -> Option<String> {
     let whole = |t: usize| surface.corners(t);
@@ -16,7 +19,9 @@ pub(super) fn warning(surface: &Surface, start: &Start, n_points: usize) -> Opti
     let (area, volume) = measured((0..surface.n_triangles()).map(whole));
     let (start_area, start_volume) = measured((0..start.half_edges.n_triangles()).map(of_start));
     let of_area = (area - start_area) / area;
-    let of_volume = if surface.is_closed() && volume != 0.0 { (volume - start_volume) / volume } else { 0.0 };
+    // Twice the area, and six times the volume, which of a cube are 12 and 6.
+    let has_volume = surface.is_closed() && volume.abs() > THIN * 6.0 * (area / 12.0).powf(1.5);
+    let of_volume = if has_volume { (volume - start_volume) / volume } else { 0.0 };
     let loss = of_area.abs().max(of_volume.abs());
     if !(loss > MUCH && loss.is_finite()) {
         return None;
@@ -25,7 +30,7 @@ pub(super) fn warning(surface: &Surface, start: &Start, n_points: usize) -> Opti
     let needed = n_points as f64 * loss / LITTLE;
     let digits = 10f64.powf(needed.log10().floor() - 1.0);
     let percent = |share: f64| format!("{:.0} % {}", 100.0 * share.abs(), if share < 0.0 { "more" } else { "less" });
-    let both = match surface.is_closed() {
+    let both = match has_volume {
         true => format!("{} area and {} volume", percent(of_area), percent(of_volume)),
         false => format!("{} area", percent(of_area)),
     };
@@ -35,7 +40,7 @@ pub(super) fn warning(surface: &Surface, start: &Start, n_points: usize) -> Opti
     ))
 }
 
-/// Area and volume, but for factors.
+/// Twice the area, and six times the volume.
 fn measured(triangles: impl Iterator<Item = [DVec3; 3]>) -> (f64, f64) {
     triangles.fold((0.0, 0.0), |(area, volume), [a, b, c]| (area + (b - a).cross(c - a).length(), volume + a.dot(b.cross(c))))
 }

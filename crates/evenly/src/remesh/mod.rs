@@ -43,7 +43,7 @@ use self::live::{LiveSurface, Vertex};
 pub use self::method::RemeshMethod;
 pub use self::sample::{SurfaceSampling, sample_surface};
 use self::settle::settle;
-use self::start::start;
+use self::start::{Wanted, start};
 use crate::error::Error;
 use crate::run::{Phase, Report, RunContext};
 use crate::surface::{Attribute, Features, Place, SIZE, Surface, TriangleMesh, weighted_area};
@@ -200,20 +200,22 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
     params.validate(surface)?;
     let mut report = Report::new(params.method.name(), params.n_points);
     let sizes = relative_sizes(surface, &params.sizes);
-    let mut features = Features::new(surface, params.features_deg, start::spacing(surface, params.n_points));
+    let long = Features::new(surface, params.features_deg, start::spacing(surface, params.n_points));
 
     // 1. Exactly so many vertices, with the surface's topology.
     run.enter(Phase::Triangulate);
     let inside: Vec<_> = params.points.iter().map(|&p| surface.frame.inward(p)).collect();
     let given = given::places(surface, &inside);
-    let begin = |features: &Features| start(surface, features, &sizes, params.n_points, &given, params.seed);
-    let mut started = begin(&features)?;
-    if let (Err(least), Some(_)) = (&started, params.features_deg) {
-        // So few may stand at the corners alone, of creases that are short for them.
-        let least = *least;
-        features = Features::new(surface, params.features_deg, 0.0);
-        started = begin(&features)?.map_err(|of_creases| least.min(of_creases));
-    }
+    let wanted = Wanted { surface, features: &long, sizes: &sizes, n_points: params.n_points, given: &given, seed: params.seed };
+    let (features, started) = match start(wanted)? {
+        // Creases that are short for the spacing were left out: with all of them, fewer vertices may do.
+        Err(least) if params.features_deg.is_some() => {
+            let all = Features::new(surface, params.features_deg, 0.0);
+            let started = start(Wanted { features: &all, ..wanted })?.map_err(|of_all| least.min(of_all));
+            (all, started)
+        }
+        started => (long, started),
+    };
     let start = started.map_err(|least| Error::InvalidParameter {
         name: "n_points",
         value: format!("{} where no fewer than {least} are possible", params.n_points),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::start::start;
+use super::start::{Wanted, start};
 use super::{RemeshParams, SurfacePoint, remesh};
 use crate::error::Error;
 use crate::run::{Outcome, Phase, Report, RunContext};
@@ -90,7 +90,7 @@ pub fn sample_surface(
         SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if n < LEAST_OF_PART * surface.n_components() => Ok(by_distance(n)),
         SurfaceSampling::Eliminate(n) => {
             let sizes = vec![1.0; surface.n_vertices()];
-            match start(surface, &features, &sizes, n, &[], seed)? {
+            match start(Wanted { surface, features: &features, sizes: &sizes, n_points: n, given: &[], seed })? {
                 Err(_) => Ok(by_distance(n)),
                 Ok(start) => done("eliminate", start.vertices.iter().map(|vertex| vertex.shown(surface)).collect()),
             }

@@ -13,22 +13,29 @@ pub(super) fn spacing(surface: &Surface, n_points: usize) -> f64 {
     (2.0 * surface.inner_area() / (3f64.sqrt() * n_points as f64)).sqrt()
 }
 
+/// What a start is to be.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    pub surface: &'a Surface,
+    pub features: &'a Features,
+    /// Relative to the mean, at each vertex of the surface.
+    pub sizes: &'a [f64],
+    pub n_points: usize,
+    /// Places to choose from, if there are any, and how far from the surface they were given.
+    pub given: &'a [(Place, f64)],
+    pub seed: u64,
+}
+
 /// Splits and collapses edges of the surface until exactly so many vertices are left; of given places, if there are any. How many
 /// are needed, where the features and the topology do not let it be so few.
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] for two given places that are one.
-pub(super) fn start(
-    surface: &Surface,
-    features: &Features,
-    sizes: &[f64],
-    n_points: usize,
-    given: &[(Place, f64)],
-    seed: u64,
-) -> Result<Result<Start, usize>, Error> {
+pub(super) fn start(wanted: Wanted) -> Result<Result<Start, usize>, Error> {
     let mut least = usize::MAX;
     for round in 0..ROUNDS {
-        match attempt(surface, features, sizes, n_points, given, seed.wrapping_add(round as u64), SPARING.powi(round.min(SPARINGS)))? {
+        let seed = wanted.seed.wrapping_add(round as u64);
+        match attempt(Wanted { seed, ..wanted }, SPARING.powi(round.min(SPARINGS)))? {
             Ok(start) => return Ok(Ok(start)),
             Err(n) => least = least.min(n),
         }
@@ -43,15 +50,8 @@ const SPARINGS: i32 = 8;
 const ROUNDS: i32 = 24;
 
 /// As [`start`], with points on creases and borders so many spacings apart; how many vertices are needed where these are not enough.
-fn attempt(
-    surface: &Surface,
-    features: &Features,
-    sizes: &[f64],
-    n_points: usize,
-    given: &[(Place, f64)],
-    seed: u64,
-    spacings: f64,
-) -> Result<Result<Start, usize>, Error> {
+fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error> {
+    let Wanted { surface, features, sizes, n_points, given, seed } = wanted;
     let spacing = spacing(surface, n_points);
     let mut draft = Draft::new(surface, features, sizes);
     // 1. Points along creases and borders.

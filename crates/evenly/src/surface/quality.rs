@@ -116,7 +116,8 @@ pub fn surface_quality(surface: &Surface) -> SurfaceQuality {
     let (mut thin, mut squares) = (0, 0.0);
     for t in 0..n_triangles {
         let corners = surface.corners(t);
-        let Shape { edges, area, angles } = Shape::of(corners);
+        let shape = Shape::of(corners);
+        let Shape { edges, area, angles } = shape;
         let [shortest, longest] = [edges.iter().copied().fold(f64::INFINITY, f64::min), edges.iter().copied().fold(0.0, f64::max)];
         let q = 6.0 * area / (3f64.sqrt() * 0.5 * edges.iter().sum::<f64>() * longest);
         let [least, largest] = extremes(angles);
@@ -130,7 +131,7 @@ pub fn surface_quality(surface: &Surface) -> SurfaceQuality {
         quality.obtuse_triangles += usize::from(largest > 90.0 + ROUNDING_DEG);
         quality.min_edge = quality.min_edge.min(shortest);
         quality.max_edge = quality.max_edge.max(longest);
-        quality.max_circumradius = quality.max_circumradius.max(edges.iter().product::<f64>() / (4.0 * area));
+        quality.max_circumradius = quality.max_circumradius.max(shape.circumradius());
     }
     quality.angle_rms_deg = (squares / (3.0 * n)).sqrt();
     quality.thin_fraction = thin as f64 / n;
@@ -168,33 +169,40 @@ pub fn certificate(surface: &Surface, beta: f64) -> Vec<CertificateBreach> {
     (0..surface.n_triangles()).filter_map(breach).collect()
 }
 
-/// Each edge once: from its first half-edge.
+/// The ends of each edge once: from its first half-edge.
+pub(super) fn edges(surface: &Surface) -> impl Iterator<Item = [usize; 2]> {
+    let mesh = &surface.half_edges;
+    let first = (0..mesh.origin.len() as u32).filter(|&h| mesh.twin[h as usize] > h);
+    first.map(|h| [mesh.origin[h as usize], mesh.target(h)].map(|v| v as usize))
+}
+
 fn size_errors(surface: &Surface) -> Option<SizeErrors> {
     let attribute = surface.attributes().iter().find(|attribute| attribute.name == SIZE)?;
     let sizes = surface.of_given(&attribute.values);
-    let mesh = &surface.half_edges;
-    let edges = (0..mesh.origin.len() as u32).filter(|&h| mesh.twin[h as usize] > h);
-    SizeErrors::of(edges.map(|h| {
-        let ends = [mesh.origin[h as usize], mesh.target(h)].map(|v| v as usize);
+    SizeErrors::of(edges(surface).map(|ends| {
         let [a, b] = ends.map(|v| surface.points[v]);
         (surface.frame.length_outward(a.distance(b)), ends.map(|v| sizes[v]))
     }))
 }
 
-struct Shape {
+pub(super) struct Shape {
     edges: [f64; 3],
     area: f64,
     angles: [f64; 3],
 }
 
 impl Shape {
-    fn of([a, b, c]: [DVec3; 3]) -> Self {
+    pub fn of([a, b, c]: [DVec3; 3]) -> Self {
         let angle = |at: DVec3, u: DVec3, v: DVec3| libm::atan2((u - at).cross(v - at).length(), (u - at).dot(v - at)).to_degrees();
         Self {
             edges: [a.distance(b), b.distance(c), c.distance(a)],
             area: 0.5 * (b - a).cross(c - a).length(),
             angles: [angle(a, b, c), angle(b, c, a), angle(c, a, b)],
         }
+    }
+
+    pub fn circumradius(&self) -> f64 {
+        self.edges.iter().product::<f64>() / (4.0 * self.area)
     }
 }
 
