@@ -3,7 +3,9 @@
 use std::fmt::Display;
 use std::io::Write as _;
 
+use evenly_io::presentable;
+
 /// Says a line.
 pub fn say(line: impl Display) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", presentable(&line.to_string()));
 }

@@ -5,6 +5,7 @@ use std::io;
 use thiserror::Error;
 
 use crate::memory::bytes_told;
+use crate::message::presentable;
 
 /// A file that cannot be read or written. The message names it, and the line where there is one.
 #[derive(Debug, Error)]
@@ -60,6 +61,6 @@ impl Error {
     }
 
     pub(crate) fn content(name: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self::Content { name: name.into(), problem: problem.into() }
+        Self::Content { name: name.into(), problem: presentable(&problem.into()) }
     }
 }

@@ -9,6 +9,7 @@ use image::{DynamicImage, ImageDecoder as _, ImageReader, Limits};
 use crate::file::read_bytes;
 use crate::memory::require;
 use crate::pixels::{bytes, colour, encode};
+use crate::tiff::Numbers;
 use crate::{Error, Target};
 
 /// What a picture has besides pixels, such as a colour profile, takes no more bytes than this.
@@ -16,7 +17,10 @@ const MOST_BESIDES: u64 = 100_000_000;
 /// So many times the decoded pixels are in memory while a picture is read.
 const COPIES: u64 = 3;
 
-/// Reads a PNG, JPEG, TIFF, WebP, GIF or BMP, of 8 or 16 bits, grey or in colour; what is transparent lies on white. `-` is stdin.
+/// Reads a PNG, JPEG, TIFF, WebP, GIF or BMP, grey or in colour; what is transparent lies on white. `-` is stdin.
+///
+/// Floats and integers of a TIFF that are no tones are divided by the largest where that is above 1; negative ones, and what is no
+/// number or marked as none, are 0.
 ///
 /// # Errors
 /// [`Error`] with the file's name, for what is no such picture, and for more than [`Image::MOST_PIXELS`].
@@ -34,14 +38,17 @@ pub(crate) fn decode(path: &Path, most_pixels: usize) -> Result<(String, Dynamic
     if bytes.starts_with(b"\xff\xd8") && !is_whole_jpeg(&bytes) {
         return Err(Error::content(&name, "not a whole JPEG: its end is missing"));
     }
+    if let Some(numbers) = Numbers::of(&bytes) {
+        refuse_large(&name, numbers.width, numbers.height, most_pixels)?;
+        require(&name, numbers.needed())?;
+        let picture = numbers.read().map_err(|e| Error::content(&name, format!("not a readable TIFF ({e})")))?;
+        return Ok((name, picture));
+    }
     let mut reader = ImageReader::new(Cursor::new(&bytes));
     reader.limits(limits(MOST_BESIDES));
     let mut decoder = reader.with_guessed_format().map_err(|e| unreadable(e.into()))?.into_decoder().map_err(unreadable)?;
     let (width, height) = decoder.dimensions();
-    if width as usize * height as usize > most_pixels {
-        let problem = format!("{width} x {height} pixels; at most {most_pixels} are possible: make it smaller");
-        return Err(Error::content(&name, problem));
-    }
+    refuse_large(&name, width, height, most_pixels)?;
     let needed = decoder.total_bytes();
     require(&name, needed.saturating_mul(COPIES))?;
     decoder.set_limits(limits(needed.saturating_mul(COPIES).saturating_add(MOST_BESIDES))).map_err(unreadable)?;
@@ -50,6 +57,14 @@ pub(crate) fn decode(path: &Path, most_pixels: usize) -> Result<(String, Dynamic
     let mut picture = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
     picture.apply_orientation(orientation);
     Ok((name, picture))
+}
+
+fn refuse_large(name: &str, width: u32, height: u32, most_pixels: usize) -> Result<(), Error> {
+    if u64::from(width) * u64::from(height) > most_pixels as u64 {
+        let problem = format!("{width} x {height} pixels; at most {most_pixels} are possible: make it smaller");
+        return Err(Error::content(name, problem));
+    }
+    Ok(())
 }
 
 /// At most so many bytes for a decoder.
@@ -67,10 +82,12 @@ fn is_whole_jpeg(bytes: &[u8]) -> bool {
 
 /// One number or three a pixel.
 fn values(picture: DynamicImage) -> (usize, Vec<f64>) {
-    let has_colour = picture.color().has_color();
+    let is_grey = |p: &DynamicImage| p.as_rgb32f().is_some_and(|p| p.pixels().all(|p| p[0] == p[1] && p[1] == p[2]));
+    let has_colour = picture.color().has_color() && !is_grey(&picture);
     if !picture.color().has_alpha() {
         return match has_colour {
             true => (3, picture.into_rgb32f().into_raw().into_iter().map(f64::from).collect()),
+            false if picture.as_rgb32f().is_some() => (1, picture.into_rgb32f().pixels().map(|p| f64::from(p[0])).collect()),
             false => (1, picture.into_luma16().into_raw().into_iter().map(|grey| f64::from(grey) / 65535.0).collect()),
         };
     }

@@ -53,7 +53,7 @@ pub fn luma([red, green, blue]: [f32; 3]) -> f32 {
 }
 
 impl Photograph {
-    /// Reads a PNG, JPEG or TIFF, of 8 or 16 bits, grey or in colour. `-` is stdin. Of an animation the first picture counts.
+    /// Reads a picture as [`read_image`](crate::read_image) does. Of an animation the first counts.
     ///
     /// # Errors
     /// [`Error`] with the file's name, for what is no such picture.
