@@ -21,13 +21,10 @@ pub fn told(polygon: &Polygon, params: &MeshParams, n_triangles: usize, wanted: 
         // What stands alone, or what must be a vertex or an edge: that stays.
         return Some(cost);
     }
-    let has_many = |tolerance: f64| !polygon.simplified(tolerance).is_ok_and(|simple| has_few(&simple));
-    // By halves: the more is left out, the fewer there are.
     let tolerances: Vec<f64> = TRIED.map(|k| params.spacing * f64::from(k).exp2()).collect();
-    let k = tolerances.partition_point(|&tolerance| has_many(tolerance));
-    Some(match tolerances.get(k) {
-        Some(tolerance) => format!("{cost}; --simplify {} would save half of them or more", rounded(*tolerance)),
-        None => cost,
+    Some(match polygon.least_simplification(&tolerances, has_few) {
+        Ok(Some(tolerance)) => format!("{cost}; --simplify {} would save half of them or more", rounded(tolerance)),
+        _ => cost,
     })
 }
 

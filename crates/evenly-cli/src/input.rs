@@ -36,9 +36,9 @@ pub fn read_with_columns(input: &Path, space: &Space) -> anyhow::Result<(PointSe
     let Table { positions, columns } = evenly_io::read_table(input)?;
     let n_outside = positions.iter().filter(|p| is_outside(space, p)).count();
     let points = PointSet::new(space, positions).with_context(|| input.display().to_string())?;
-    let points = if n_outside == 1 { "1 point lies".into() } else { format!("{n_outside} points lie") };
+    let lie = if n_outside == 1 { "1 point lies".into() } else { format!("{n_outside} points lie") };
     let were = if n_outside == 1 { "was" } else { "were" };
-    let note = format!("{points} outside the torus {space} and {were} wrapped into it; are --size and --origin right?");
+    let note = format!("{lie} outside the torus {space} and {were} wrapped into it; are --size and --origin right?");
     Ok((points, (n_outside > 0).then_some(note), columns))
 }
 

@@ -12,7 +12,8 @@ use std::collections::{BinaryHeap, HashMap};
 use glam::DVec2;
 
 use super::outline::Outline;
-use crate::triangulation::{HalfEdges, Planar, Refinement, Refining, Sizing, prev};
+use crate::points::hilbert_order;
+use crate::triangulation::{HalfEdges, Planar, Refinement, Refining, Sizing, prev, smallest};
 
 /// The coarse mesh has no angle below about 25 degrees: 1 / (2 sin 25).
 const ASPECT: f64 = 1.183;
@@ -83,18 +84,29 @@ pub(super) fn background(outline: &Outline, planar: Planar, grading: &Grading) -
     if refinement.positions.len() >= most.min(grading.max_vertices) {
         refinement = refined(grading.floor, grading.max_vertices);
     }
-    let Refinement { half_edges, positions, segments, .. } = refinement;
+    let Refinement { mut half_edges, positions, segments, .. } = refinement;
+
+    // Neighbours in the plane become neighbours in memory.
+    let order = hilbert_order(&positions, positions.iter().fold(DVec2::ZERO, |size, &p| size.max(p)));
+    let mut number = vec![0u32; order.len()];
+    order.iter().zip(0..).for_each(|(&v, new)| number[v as usize] = new);
+    half_edges.origin.iter_mut().for_each(|v| *v = number[*v as usize]);
+    let half_edges = half_edges.filtered(|_, corners| Some(smallest(corners)));
+    let positions: Vec<DVec2> = order.iter().map(|&v| positions[v as usize]).collect();
+    let segments = segments.into_iter().map(|(ends, segment)| (ends.map(|v| number[v as usize]), segment)).collect();
+    // The outline's point that each vertex is.
+    let point_of: Vec<Option<u32>> = order.iter().map(|&v| source.get(v as usize).copied()).collect();
 
     let wanted = |&p: &DVec2| grading.wanted.map_or(f64::INFINITY, |wanted| wanted(p).max(grading.least));
     let asked: Vec<f64> = positions.iter().map(|p| wanted(p).min(grading.largest)).collect();
     let mut sizes = asked.clone();
-    // The domain's own segments; their vertices come first.
+    // The domain's own segments.
     let mut facts = vec![f64::INFINITY; positions.len()];
     for h in 0..half_edges.origin.len() as u32 {
         let (a, b) = (half_edges.origin[h as usize] as usize, half_edges.target(h) as usize);
         let length = positions[a].distance(positions[b]);
         let length = length.min(if half_edges.is_border(h) { grading.on_border } else { grading.largest });
-        if a < source.len() && b < source.len() && half_edges.is_border(h) {
+        if point_of[a].is_some() && point_of[b].is_some() && half_edges.is_border(h) {
             facts[a] = facts[a].min(length);
             facts[b] = facts[b].min(length);
         }
@@ -110,8 +122,8 @@ pub(super) fn background(outline: &Outline, planar: Planar, grading: &Grading) -
     limit_growth(&mut sizing, grading.growth);
     let mut hints = vec![0; outline.points.len()];
     for (t, corners) in (0..).zip(sizing.half_edges.triangles()) {
-        for point in corners.into_iter().filter_map(|v| source.get(v as usize)) {
-            hints[*point as usize] = t;
+        for point in corners.into_iter().filter_map(|v| point_of[v as usize]) {
+            hints[point as usize] = t;
         }
     }
     Background { sizing, hints, segments }

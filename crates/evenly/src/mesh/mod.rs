@@ -19,6 +19,7 @@ mod finish;
 mod method;
 mod mover;
 mod outline;
+mod patches;
 mod polish;
 mod quality;
 mod regions;

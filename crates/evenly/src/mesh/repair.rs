@@ -29,9 +29,7 @@ pub(super) fn repair(mesh: &LiveMesh, corners: Vec<u32>, aim: &Aim, may_halve: i
     if faults.is_empty() {
         return None;
     }
-    let mut points = vec![DVec2::ZERO; view.bonds.tracks.len()];
-    view.source.iter().zip(&view.triangulation.positions).for_each(|(&point, &at)| points[point as usize] = at);
-    let state = State { points, corners, bonds: view.bonds };
+    let state = State::of(mesh, corners)?;
     Some(state.changed(faults.into_iter().map(|fault| fault.change)))
 }
 

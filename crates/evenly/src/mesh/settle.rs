@@ -1,10 +1,13 @@
 //! Points find their places; where they cannot, some are added or removed, and they try again.
 
+use std::collections::HashSet;
+
 use glam::DVec2;
 
 use super::aim::Aim;
 use super::mover::{MOST_ROUNDS, Mover};
 use super::outline::{Of, Outline};
+use super::patches::{Patch, Whole, cut_out, put_back};
 use super::polish::polish;
 use super::repair::repair;
 use super::settled::Settled;
@@ -27,37 +30,13 @@ pub(super) struct Place<'a> {
 }
 
 /// Moves points to what is aimed at, at first and after repairs, polishes the best of all states, and says in the report whether all is good.
-pub(super) fn settle(
-    state: State,
-    Place { domain, outline, spacing }: Place,
-    mover: &Mover,
-    run: &mut RunContext,
-    report: &mut Report,
-) -> Result<Settled, Error> {
-    let aim = mover.aim();
+pub(super) fn settle(state: State, place: Place, mover: &Mover, run: &mut RunContext, report: &mut Report) -> Result<Settled, Error> {
+    let outline = place.outline;
     let may_halve = |rail: u32| outline.segments[rail as usize].of != Of::Base;
-    let mut best: Option<(f64, Settled)> = None;
-    let (mut state, mut n_in_vain) = (state, 0);
-    for round in 0..MOST_ROUNDS {
-        let State { points, corners, bonds } = state.in_order(domain);
-        let Ok(mesh) = LiveMesh::bounded(domain, &points, bonds, spacing) else { break };
-        report.triangulations += 1;
-        let Ok(mut mesh) = mover.moved(mesh, round, run, report) else { break };
-        mesh.legalize();
-        let triangulation = mesh.triangulation();
-        let badness = badness(&triangulation, &aim);
-        let is_better = best.as_ref().is_none_or(|&(least, _)| badness < least);
-        n_in_vain = if is_better { 0 } else { n_in_vain + 1 };
-        let is_done = run.is_cancelled() || badness == 0.0 || n_in_vain > MOST_IN_VAIN;
-        let repaired = if is_done { None } else { repair(&mesh, corners.clone(), &aim, may_halve) };
-        if is_better && let Some(settled) = Settled::new(&mesh, triangulation, &corners) {
-            best = Some((badness, settled));
-        }
-        let Some(repaired) = repaired else { break };
-        state = repaired;
-    }
-    let (_, mut settled) = best.ok_or_else(meets_itself)?;
+    let best = rounds(state, &Extent::Whole, place, mover, &may_halve, run, report).ok_or_else(meets_itself)?;
+    let mut settled = Settled::new(&best.mesh, best.mesh.triangulation(), &best.corners).ok_or_else(meets_itself)?;
     // Whoever has interrupted wants the state reached, and soon.
+    let aim = mover.aim();
     if !run.is_cancelled() {
         let rails: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
         polish(&mut settled, &rails, &aim, mover.seed);
@@ -68,6 +47,114 @@ pub(super) fn settle(
         () => Outcome::IterationLimit,
     };
     Ok(settled)
+}
+
+/// What rounds go over.
+#[derive(PartialEq)]
+enum Extent {
+    Whole,
+    Patch,
+}
+
+/// The best state of some rounds.
+struct Best {
+    badness: f64,
+    mesh: LiveMesh,
+    /// The outline's point that each point is; in a patch, the whole's.
+    corners: Vec<u32>,
+}
+
+/// Moves points, repairs what is bad, and so on while that helps; where few places are bad, each is settled for itself.
+/// `None` where there is no mesh of the points.
+fn rounds(
+    mut state: State,
+    extent: &Extent,
+    place: Place,
+    mover: &Mover,
+    may_halve: &dyn Fn(u32) -> bool,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> Option<Best> {
+    let aim = mover.aim();
+    let mut best: Option<Best> = None;
+    let mut n_in_vain = 0;
+    // The corners of triangles that could not be mended where they are.
+    let mut given_up = HashSet::new();
+    // What a patch begins with has been moved.
+    let mut is_moved = *extent == Extent::Patch;
+    for round in 0..MOST_ROUNDS {
+        let State { points, corners, bonds } = state.in_order(place.domain);
+        let Ok(mut mesh) = LiveMesh::bounded(place.domain, &points, bonds, place.spacing) else { break };
+        report.triangulations += 1;
+        if !is_moved {
+            let Ok(moved) = mover.moved(mesh, round, run, report) else { break };
+            mesh = moved;
+            mesh.legalize();
+        }
+        is_moved = false;
+        let triangulation = mesh.triangulation();
+        let badness = badness(&triangulation, &aim);
+        let is_better = best.as_ref().is_none_or(|best| badness < best.badness);
+        n_in_vain = if is_better { 0 } else { n_in_vain + 1 };
+        let is_done = run.is_cancelled() || badness == 0.0 || n_in_vain > MOST_IN_VAIN;
+        let mut next = None;
+        if !is_done && *extent == Extent::Whole {
+            let whole = State::of(&mesh, corners.clone())?;
+            let (_, source) = mesh.bonds()?;
+            let is_bad = |t: [u32; 3]| {
+                let t = t.map(|v| triangulation.positions[v as usize]);
+                aim.badness(t) > 0.0 && !t.iter().all(|&at| given_up.contains(&bits(at)))
+            };
+            let patches = cut_out(Whole { state: &whole, triangulation: &triangulation, source }, is_bad);
+            if let Some(patches) = patches {
+                is_moved = true;
+                if !patches.is_empty() {
+                    next = Some(mended(whole, patches, place, mover, may_halve, &mut given_up, run, report));
+                }
+            }
+        }
+        if !is_done && next.is_none() && !is_moved {
+            next = repair(&mesh, corners.clone(), &aim, may_halve);
+        }
+        if is_better {
+            best = Some(Best { badness, mesh, corners });
+        }
+        let Some(next) = next else { break };
+        state = next;
+    }
+    best
+}
+
+/// The whole with each patch settled for itself.
+fn mended(
+    whole: State,
+    patches: Vec<Patch>,
+    place: Place,
+    mover: &Mover,
+    may_halve: &dyn Fn(u32) -> bool,
+    given_up: &mut HashSet<[u64; 2]>,
+    run: &mut RunContext,
+    report: &mut Report,
+) -> State {
+    let mut settled = Vec::with_capacity(patches.len());
+    for patch in patches {
+        let may_halve = |rail: u32| patch.rail(rail).is_some_and(may_halve);
+        let best = rounds(patch.state.clone(), &Extent::Patch, place, mover, &may_halve, run, report);
+        let Some(best) = best else { continue };
+        if best.badness > 0.0 {
+            let Triangulation { half_edges, positions, .. } = best.mesh.triangulation();
+            let bad = half_edges.triangles().map(|t| t.map(|v| positions[v as usize])).filter(|&t| mover.aim().badness(t) > 0.0);
+            given_up.extend(bad.flatten().map(bits));
+        }
+        if let Some(state) = State::of(&best.mesh, best.corners) {
+            settled.push((patch, state));
+        }
+    }
+    put_back(whole, settled)
+}
+
+fn bits(at: DVec2) -> [u64; 2] {
+    at.to_array().map(f64::to_bits)
 }
 
 /// Why there is no mesh of the points.

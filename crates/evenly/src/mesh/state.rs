@@ -10,7 +10,7 @@ use super::outline::{Of, Outline};
 use super::scatter::Scattered;
 use crate::points::hilbert_order;
 use crate::space::Domain;
-use crate::triangulation::{BORDER, Bonds, Edge, Track};
+use crate::triangulation::{BORDER, Bonds, Edge, LiveMesh, Track};
 
 /// What holds the points, by point, and where they are.
 #[derive(Debug, Clone)]
@@ -47,6 +47,14 @@ impl State {
         let rails = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
         let bonds = Bonds { tracks, rails, edges, sizing: Arc::new(sizing), hints };
         Self { points, corners, bonds }
+    }
+
+    /// The state of a mesh whose points are these of the outline; `None` where nothing holds them.
+    pub fn of(mesh: &LiveMesh, corners: Vec<u32>) -> Option<Self> {
+        let (bonds, source) = mesh.bonds()?;
+        let mut points = vec![DVec2::ZERO; bonds.tracks.len()];
+        (0..).zip(source).for_each(|(v, &point)| points[point as usize] = mesh.position(v));
+        Some(Self { points, corners, bonds })
     }
 
     /// The same along the Hilbert curve.

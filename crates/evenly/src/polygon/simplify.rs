@@ -21,12 +21,42 @@ impl Polygon {
     /// # Errors
     /// [`Error::InvalidParameter`] for a tolerance that is not positive and finite.
     pub fn simplified(&self, tolerance: f64) -> Result<Self, Error> {
-        if !(tolerance > 0.0 && tolerance.is_finite()) {
-            return Err(Error::InvalidParameter { name: "simplify", value: tolerance.to_string(), expected: "positive and finite" });
+        let mut rings = Rings::new(self);
+        rings.collapse_all(self.normalized_tolerance(tolerance)?);
+        self.with_corners(&rings)
+    }
+
+    /// The first of rising tolerances for which the simplified polygon `is_simple`, if there is one; each goes on from the one before.
+    ///
+    /// # Errors
+    /// As [`Self::simplified`].
+    pub fn least_simplification(&self, tolerances: &[f64], is_simple: impl Fn(&Self) -> bool) -> Result<Option<f64>, Error> {
+        let mut rings = Rings::new(self);
+        let mut n_looked_at = rings.places.len();
+        for &tolerance in tolerances {
+            rings.collapse_all(self.normalized_tolerance(tolerance)?);
+            // With nearly as many corners it is hardly simpler.
+            let n_left = rings.is_gone.iter().filter(|is_gone| !**is_gone).count();
+            if n_left as f64 <= WORTH_A_LOOK * n_looked_at as f64 {
+                n_looked_at = n_left;
+                if is_simple(&self.with_corners(&rings)?) {
+                    return Ok(Some(tolerance));
+                }
+            }
         }
+        Ok(None)
+    }
+
+    fn normalized_tolerance(&self, tolerance: f64) -> Result<f64, Error> {
+        if tolerance > 0.0 && tolerance.is_finite() {
+            return Ok(tolerance / self.domain().restore_length(1.0));
+        }
+        Err(Error::InvalidParameter { name: "simplify", value: tolerance.to_string(), expected: "positive and finite" })
+    }
+
+    /// The polygon with what is left of its corners.
+    fn with_corners(&self, rings: &Rings) -> Result<Self, Error> {
         let domain = self.domain();
-        let mut rings = Rings::new(self, tolerance / domain.restore_length(1.0));
-        rings.collapse_all();
         // Corners may come to lie outside of what was the frame.
         let ([left, bottom], unit) = (domain.restore(DVec2::ZERO), domain.restore_length(1.0));
         let restored = |p: DVec2| [left + unit * p.x, bottom + unit * p.y];
@@ -37,6 +67,8 @@ impl Polygon {
     }
 }
 
+/// A polygon is looked at anew with this part of its corners.
+const WORTH_A_LOOK: f64 = 0.9;
 /// So many corners around a collapse are looked at.
 const AROUND: usize = 8;
 
@@ -66,7 +98,7 @@ struct Collapse {
 }
 
 impl Rings {
-    fn new(polygon: &Polygon, tolerance: f64) -> Self {
+    fn new(polygon: &Polygon) -> Self {
         let first: Vec<[DVec2; 2]> = polygon.border.iter().map(|ends| ends.map(|v| polygon.corners[v as usize])).collect();
         let (mut next, mut previous, mut starts) = (Vec::new(), Vec::new(), Vec::new());
         for ring in &polygon.rings {
@@ -77,7 +109,7 @@ impl Rings {
         }
         let n = first.len();
         Self {
-            tolerance,
+            tolerance: 0.0,
             places: first.iter().map(|ends| ends[0]).collect(),
             given: polygon.rings.iter().flatten().map(|&p| Some(p)).collect(),
             next,
@@ -105,7 +137,8 @@ impl Rings {
         })
     }
 
-    fn collapse_all(&mut self) {
+    fn collapse_all(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
         // Positive numbers are in the order of their bits.
         let mut queue: BinaryHeap<Reverse<(u64, u32, u32)>> = BinaryHeap::new();
         let wait = |rings: &Self, queue: &mut BinaryHeap<_>, a: u32| {
