@@ -197,7 +197,12 @@ impl Star {
 
     /// Whether the weighted circumradii of all wedges' triangles are at most `radius`.
     pub fn is_all_covered(&self, radius: f64) -> bool {
-        (0..self.n_spokes()).all(|k| self.is_covered(k, radius))
+        let mut wedges = 0..self.n_spokes();
+        // Mostly there is nothing to weigh with.
+        if self.metric.radii.is_empty() {
+            return wedges.all(|k| self.rim_squared(k) <= (2.0 * radius * self.wedges[k].sin).powi(2));
+        }
+        wedges.all(|k| self.is_covered(k, radius))
     }
 
     /// The spokes laid out in a plane, the first along its x axis.
@@ -271,6 +276,7 @@ impl Star {
     }
 
     /// The area of the Voronoi cell; leaves the lengths of its edges in `sides`.
+    #[inline]
     pub fn measure_cell(&mut self) -> f64 {
         let Self { lengths, wedges, sides, .. } = self;
         sides.clear();

@@ -102,7 +102,7 @@ def stipple(
     ----------
     picture : array_like of shape (height, width) or (height, width, 3 or 4), or path
         Whole numbers up to 255 (or up to 65535, of uint16), or fractions from 0 to 1; rows from the top. What is transparent gets no dots. Files are
-        PNG, JPEG or TIFF.
+        PNG, JPEG, TIFF, WebP, GIF or BMP.
     n : int
         How many dots, exactly, of all layers together.
     method : str

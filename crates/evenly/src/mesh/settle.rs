@@ -33,7 +33,8 @@ pub(super) struct Place<'a> {
 pub(super) fn settle(state: State, place: Place, mover: &Mover, run: &mut RunContext, report: &mut Report) -> Result<Settled, Error> {
     let outline = place.outline;
     let may_halve = |rail: u32| outline.segments[rail as usize].of != Of::Base;
-    let best = rounds(state, &Extent::Whole, place, mover, &may_halve, run, report).ok_or_else(meets_itself)?;
+    let rounds = Rounds { place, mover, may_halve: &may_halve, is_patch: false };
+    let best = rounds.make(state, run, report).ok_or_else(meets_itself)?;
     let mut settled = Settled::new(&best.mesh, best.mesh.triangulation(), &best.corners).ok_or_else(meets_itself)?;
     // Whoever has interrupted wants the state reached, and soon.
     let aim = mover.aim();
@@ -49,11 +50,13 @@ pub(super) fn settle(state: State, place: Place, mover: &Mover, run: &mut RunCon
     Ok(settled)
 }
 
-/// What rounds go over.
-#[derive(PartialEq)]
-enum Extent {
-    Whole,
-    Patch,
+/// What rounds are made with, on the whole or on a patch.
+struct Rounds<'a> {
+    place: Place<'a>,
+    mover: &'a Mover<'a>,
+    /// Whether an edge on this rail may be halved.
+    may_halve: &'a dyn Fn(u32) -> bool,
+    is_patch: bool,
 }
 
 /// The best state of some rounds.
@@ -64,93 +67,94 @@ struct Best {
     corners: Vec<u32>,
 }
 
-/// Moves points, repairs what is bad, and so on while that helps; where few places are bad, each is settled for itself.
-/// `None` where there is no mesh of the points.
-fn rounds(
-    mut state: State,
-    extent: &Extent,
-    place: Place,
-    mover: &Mover,
-    may_halve: &dyn Fn(u32) -> bool,
-    run: &mut RunContext,
-    report: &mut Report,
-) -> Option<Best> {
-    let aim = mover.aim();
-    let mut best: Option<Best> = None;
-    let mut n_in_vain = 0;
-    // The corners of triangles that could not be mended where they are.
-    let mut given_up = HashSet::new();
-    // What a patch begins with has been moved.
-    let mut is_moved = *extent == Extent::Patch;
-    for round in 0..MOST_ROUNDS {
-        let State { points, corners, bonds } = state.in_order(place.domain);
-        let Ok(mut mesh) = LiveMesh::bounded(place.domain, &points, bonds, place.spacing) else { break };
-        report.triangulations += 1;
-        if !is_moved {
-            let Ok(moved) = mover.moved(mesh, round, run, report) else { break };
-            mesh = moved;
-            mesh.legalize();
-        }
-        is_moved = false;
-        let triangulation = mesh.triangulation();
-        let badness = badness(&triangulation, &aim);
-        let is_better = best.as_ref().is_none_or(|best| badness < best.badness);
-        n_in_vain = if is_better { 0 } else { n_in_vain + 1 };
-        let is_done = run.is_cancelled() || badness == 0.0 || n_in_vain > MOST_IN_VAIN;
-        let mut next = None;
-        if !is_done && *extent == Extent::Whole {
-            let whole = State::of(&mesh, corners.clone())?;
-            let (_, source) = mesh.bonds()?;
-            let is_bad = |t: [u32; 3]| {
-                let t = t.map(|v| triangulation.positions[v as usize]);
-                aim.badness(t) > 0.0 && !t.iter().all(|&at| given_up.contains(&bits(at)))
+impl Rounds<'_> {
+    /// Moves points, repairs what is bad, and so on while that helps; where few places are bad, each is settled for itself.
+    /// `None` where there is no mesh of the points.
+    fn make(&self, mut state: State, run: &mut RunContext, report: &mut Report) -> Option<Best> {
+        let Self { place, mover, .. } = *self;
+        let aim = mover.aim();
+        let mut best: Option<Best> = None;
+        let mut n_in_vain = 0;
+        // The corners of triangles that could not be mended where they are.
+        let mut given_up = HashSet::new();
+        // What a patch begins with has been moved.
+        let mut is_moved = self.is_patch;
+        for round in 0..MOST_ROUNDS {
+            let State { points, corners, bonds } = state.in_order(place.domain);
+            let Ok(mut mesh) = LiveMesh::bounded(place.domain, &points, bonds, place.spacing) else { break };
+            report.triangulations += 1;
+            if !is_moved {
+                let Ok(moved) = mover.moved(mesh, round, run, report) else { break };
+                mesh = moved;
+                mesh.legalize();
+            }
+            let triangulation = mesh.triangulation();
+            let badness = badness(&triangulation, &aim);
+            let is_better = best.as_ref().is_none_or(|best| badness < best.badness);
+            n_in_vain = if is_better { 0 } else { n_in_vain + 1 };
+            let is_done = run.is_cancelled() || badness == 0.0 || n_in_vain > MOST_IN_VAIN;
+            let patches = if is_done || self.is_patch { None } else { self.patches(&mesh, &triangulation, &corners, &given_up) };
+            is_moved = patches.is_some();
+            let next = match patches {
+                _ if is_done => None,
+                Some((_, patches)) if patches.is_empty() => None,
+                Some((whole, patches)) => Some(self.mended(whole, patches, &mut given_up, run, report)),
+                None => repair(&mesh, corners.clone(), &aim, self.may_halve),
             };
-            let patches = cut_out(Whole { state: &whole, triangulation: &triangulation, source }, is_bad);
-            if let Some(patches) = patches {
-                is_moved = true;
-                if !patches.is_empty() {
-                    next = Some(mended(whole, patches, place, mover, may_halve, &mut given_up, run, report));
-                }
+            if is_better {
+                best = Some(Best { badness, mesh, corners });
+            }
+            let Some(next) = next else { break };
+            state = next;
+        }
+        best
+    }
+
+    /// The whole, and what is around its bad triangles, but those that are given up; `None` where these are no few.
+    fn patches(
+        &self,
+        mesh: &LiveMesh,
+        triangulation: &Triangulation,
+        corners: &[u32],
+        given_up: &HashSet<[u64; 2]>,
+    ) -> Option<(State, Vec<Patch>)> {
+        let aim = self.mover.aim();
+        let state = State::of(mesh, corners.to_vec())?;
+        let (_, source) = mesh.bonds()?;
+        let is_bad = |t: [u32; 3]| {
+            let t = t.map(|v| triangulation.positions[v as usize]);
+            aim.badness(t) > 0.0 && !t.iter().all(|&at| given_up.contains(&bits(at)))
+        };
+        let patches = cut_out(Whole { state: &state, triangulation, source }, is_bad)?;
+        Some((state, patches))
+    }
+
+    /// The whole with each patch settled for itself.
+    fn mended(
+        &self,
+        whole: State,
+        patches: Vec<Patch>,
+        given_up: &mut HashSet<[u64; 2]>,
+        run: &mut RunContext,
+        report: &mut Report,
+    ) -> State {
+        let aim = self.mover.aim();
+        let mut settled = Vec::with_capacity(patches.len());
+        for patch in patches {
+            let may_halve = |rail: u32| patch.rail(rail).is_some_and(self.may_halve);
+            let rounds = Rounds { may_halve: &may_halve, is_patch: true, ..*self };
+            let Some(best) = rounds.make(patch.state.clone(), run, report) else { continue };
+            if best.badness > 0.0 {
+                let Triangulation { half_edges, positions, .. } = best.mesh.triangulation();
+                let bad = half_edges.triangles().map(|t| t.map(|v| positions[v as usize])).filter(|&t| aim.badness(t) > 0.0);
+                given_up.extend(bad.flatten().map(bits));
+            }
+            if let Some(state) = State::of(&best.mesh, best.corners) {
+                settled.push((patch, state));
             }
         }
-        if !is_done && next.is_none() && !is_moved {
-            next = repair(&mesh, corners.clone(), &aim, may_halve);
-        }
-        if is_better {
-            best = Some(Best { badness, mesh, corners });
-        }
-        let Some(next) = next else { break };
-        state = next;
+        put_back(whole, settled)
     }
-    best
-}
-
-/// The whole with each patch settled for itself.
-fn mended(
-    whole: State,
-    patches: Vec<Patch>,
-    place: Place,
-    mover: &Mover,
-    may_halve: &dyn Fn(u32) -> bool,
-    given_up: &mut HashSet<[u64; 2]>,
-    run: &mut RunContext,
-    report: &mut Report,
-) -> State {
-    let mut settled = Vec::with_capacity(patches.len());
-    for patch in patches {
-        let may_halve = |rail: u32| patch.rail(rail).is_some_and(may_halve);
-        let best = rounds(patch.state.clone(), &Extent::Patch, place, mover, &may_halve, run, report);
-        let Some(best) = best else { continue };
-        if best.badness > 0.0 {
-            let Triangulation { half_edges, positions, .. } = best.mesh.triangulation();
-            let bad = half_edges.triangles().map(|t| t.map(|v| positions[v as usize])).filter(|&t| mover.aim().badness(t) > 0.0);
-            given_up.extend(bad.flatten().map(bits));
-        }
-        if let Some(state) = State::of(&best.mesh, best.corners) {
-            settled.push((patch, state));
-        }
-    }
-    put_back(whole, settled)
 }
 
 fn bits(at: DVec2) -> [u64; 2] {

@@ -87,7 +87,7 @@ impl Ground for LiveSurface<'_> {
         (0..self.n_points() as u32).for_each(|v| self.soil(v));
     }
 
-    fn read(&self, v: u32, _: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
+    fn read<const PLAIN: bool>(&self, v: u32, _: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
         let SurfaceBuffer { star, senses, spokes, n_flips, .. } = buffer;
         self.restore(v, spokes, n_flips);
         self.fill(v, senses, star, spokes);
@@ -108,7 +108,7 @@ impl Ground for LiveSurface<'_> {
         if self.is_fixed(point) { DVec3::ZERO } else { by }
     }
 
-    fn relocate(&self, point: u32, by: DVec3, _: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
+    fn relocate<const PLAIN: bool>(&self, point: u32, by: DVec3, _: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
         self.go(point, by, buffer);
         Ok(())
     }

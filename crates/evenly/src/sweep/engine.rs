@@ -214,8 +214,13 @@ impl<G: Ground> Sweep<G> {
     fn visit_all(&self, rule: &impl Rule, points: &[u32], territory: Territory, buffer: &mut G::Buffer) -> Work {
         let mut work = Work::default();
         let n_flips = buffer.n_flips();
+        let is_plain = G::MAY_BE_PLAIN && self.mesh.is_plain();
         for &v in points {
-            match visit(&self.mesh, rule, v, territory, buffer) {
+            let visited = match is_plain {
+                true if G::MAY_BE_PLAIN => visit::<_, _, true>(&self.mesh, rule, v, territory, buffer),
+                _ => visit::<_, _, false>(&self.mesh, rule, v, territory, buffer),
+            };
+            match visited {
                 Ok(unrest) => work.count(unrest),
                 Err(_) => work.deferred.push(v),
             }

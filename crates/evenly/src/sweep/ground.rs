@@ -81,8 +81,15 @@ pub(crate) trait Ground: Sync + Sized {
     /// Counts a visit at which something was wrong with a point.
     fn count_unrest(&self, _point: u32) {}
 
+    /// Whether it may be [plain](Self::is_plain) at all.
+    const MAY_BE_PLAIN: bool = false;
+    /// Whether points move freely among their like: nothing varies, holds them, or stands in their way. Code for `PLAIN` then does without all of that.
+    fn is_plain(&self) -> bool {
+        false
+    }
+
     /// Makes the spokes of `v` Delaunay, and reads its star.
-    fn read(&self, v: u32, territory: Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
+    fn read<const PLAIN: bool>(&self, v: u32, territory: Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
     /// Lays out the star of `v`, which has just been read, and the stars of its neighbours.
     fn look_around(&self, v: u32, territory: Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
     /// A vector of the plane in which `look_around` has laid out the star of `v`.
@@ -90,7 +97,13 @@ pub(crate) trait Ground: Sync + Sized {
     /// The part of a move that a point can make.
     fn along(&self, point: u32, by: Self::Way) -> Self::Way;
     /// Moves a point, and soils what stands around; or as far as it gets.
-    fn relocate(&self, point: u32, by: Self::Way, territory: Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
+    fn relocate<const PLAIN: bool>(
+        &self,
+        point: u32,
+        by: Self::Way,
+        territory: Territory,
+        buffer: &mut Self::Buffer,
+    ) -> Result<(), Outside>;
 
     /// Makes all of the mesh Delaunay. Returns how many flips it took.
     fn legalize(&mut self) -> usize;
@@ -171,8 +184,14 @@ impl Ground for LiveMesh {
         self.patience.count(point);
     }
 
-    fn read(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        self.read(v, territory, buffer)
+    const MAY_BE_PLAIN: bool = true;
+
+    fn is_plain(&self) -> bool {
+        self.is_plain()
+    }
+
+    fn read<const PLAIN: bool>(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        self.read_in::<PLAIN>(v, territory, buffer)
     }
 
     fn look_around(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
@@ -187,8 +206,8 @@ impl Ground for LiveMesh {
         self.along(point, by)
     }
 
-    fn relocate(&self, point: u32, by: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        self.relocate(point, by, territory, buffer)
+    fn relocate<const PLAIN: bool>(&self, point: u32, by: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        self.relocated::<PLAIN>(point, by, territory, buffer)
     }
 
     fn legalize(&mut self) -> usize {

@@ -72,29 +72,35 @@ impl Work {
 }
 
 /// Visits a point; if the rule finds something wrong there, the point stays dirty.
-pub(super) fn visit<G: Ground>(
+pub(super) fn visit<G: Ground, R: Rule, const PLAIN: bool>(
     mesh: &G,
-    rule: &impl Rule,
+    rule: &R,
     v: u32,
     territory: Territory,
     buffer: &mut G::Buffer,
 ) -> Result<Unrest, Outside> {
-    let unrest = ask(mesh, rule, v, territory, buffer)?;
+    let unrest = ask::<G, R, PLAIN>(mesh, rule, v, territory, buffer)?;
     for k in 0..buffer.reading().moves.len() {
         let (point, by) = buffer.reading().moves[k];
-        mesh.relocate(point, by, territory, buffer)?;
+        mesh.relocate::<PLAIN>(point, by, territory, buffer)?;
     }
     if unrest.is_none() {
         mesh.clean(v);
-    } else {
+    } else if !PLAIN {
         mesh.count_unrest(v);
     }
     Ok(unrest)
 }
 
 /// Reads a star, and leaves the moves that the rule asks for in the buffer.
-pub(super) fn ask<G: Ground, R: Rule>(mesh: &G, rule: &R, v: u32, territory: Territory, buffer: &mut G::Buffer) -> Result<Unrest, Outside> {
-    mesh.read(v, territory, buffer)?;
+pub(super) fn ask<G: Ground, R: Rule, const PLAIN: bool>(
+    mesh: &G,
+    rule: &R,
+    v: u32,
+    territory: Territory,
+    buffer: &mut G::Buffer,
+) -> Result<Unrest, Outside> {
+    mesh.read::<PLAIN>(v, territory, buffer)?;
     if R::LOOKS_AROUND {
         mesh.look_around(v, territory, buffer)?;
     }
@@ -111,26 +117,33 @@ pub(super) fn ask<G: Ground, R: Rule>(mesh: &G, rule: &R, v: u32, territory: Ter
         own += mesh.unfolded(v, mesh.spacing() * star.shift);
     }
     // Where points are dense, the same way means more.
-    let scale = star.metric.scale;
+    let scale = if PLAIN { 1.0 } else { star.metric.scale };
+    // Walls and the like, and what holds points.
+    let is_mirror = |spoke: &Spoke<G::Way>| !PLAIN && spoke.vertex == MIRROR;
+    let along = |point: u32, by: G::Way| if PLAIN { by } else { mesh.along(point, by) };
     let longest = LONGEST / scale;
     let mut is_pulled_to_wall = false;
     for (spoke, &length) in spokes.iter().zip(&star.lengths) {
-        if length == spoke.length || spoke.is_echo {
+        if length == spoke.length || !PLAIN && spoke.is_echo {
             continue;
         }
-        let point = if spoke.vertex == MIRROR { v } else { mesh.point(spoke.vertex) };
-        let is_pushed = mesh.has_density() && spoke.vertex != MIRROR;
+        let point = match () {
+            () if PLAIN => spoke.vertex,
+            () if is_mirror(spoke) => v,
+            () => mesh.point(spoke.vertex),
+        };
+        let is_pushed = !PLAIN && mesh.has_density() && !is_mirror(spoke);
         let longest = if is_pushed { LONGEST_PUSH * mesh.local_spacing(point) / mesh.spacing() } else { longest };
         let change = (length - spoke.length).clamp(-longest.min(NEARER * spoke.length), longest);
         if change.abs() * scale <= STILL || spoke.length == 0.0 {
             continue;
         }
-        let by = mesh.along(point, spoke.way * (change / spoke.length));
+        let by = along(point, spoke.way * (change / spoke.length));
         if by == G::Way::default() {
             continue;
         }
         unrest.add_move(change.abs() * scale);
-        if spoke.vertex == MIRROR {
+        if is_mirror(spoke) {
             // The image comes nearer, and the vertex goes to meet it.
             own -= by * TO_WALL;
             is_pulled_to_wall |= change < 0.0;
@@ -141,13 +154,13 @@ pub(super) fn ask<G: Ground, R: Rule>(mesh: &G, rule: &R, v: u32, territory: Ter
     if is_pulled_to_wall {
         follow_to_walls(mesh, star, spokes, moves);
     }
-    let own = mesh.along(v, own);
+    let own = along(v, own);
     let own_length = own.length() / mesh.spacing() * scale;
     if own_length > STILL {
         unrest.add_move(own_length);
         moves.push((v, own.clamp_length_max(longest * mesh.spacing())));
     }
-    if moves.is_empty() && mesh.holds_points() {
+    if !PLAIN && moves.is_empty() && mesh.holds_points() {
         // What is held here cannot be mended.
         return Ok(Unrest::default());
     }

@@ -243,6 +243,17 @@ impl LiveMesh {
         }
     }
 
+    #[inline]
+    pub(super) fn soil_in<const PLAIN: bool>(&self, v: u32) {
+        if PLAIN { self.mesh.set_dirty(v, true) } else { self.soil(v) }
+    }
+
+    /// Whether points move freely among their like on a torus: nothing varies, holds them, or stands in their way.
+    pub fn is_plain(&self) -> bool {
+        let is_free = self.held.is_none() && self.fixed.is_empty() && self.shares.is_empty() && !self.patience.has_any();
+        is_free && self.field.is_none() && self.domain.is_periodic && self.domain.border.is_none() && !self.is_cover()
+    }
+
     /// Says that all points must be looked at again.
     pub fn soil_all(&self) {
         (0..self.n_points() as u32).for_each(|v| self.soil(v));

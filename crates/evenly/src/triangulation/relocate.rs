@@ -26,7 +26,22 @@ impl LiveMesh {
     ///
     /// Where that reaches out of the territory, some of the way may have been made.
     pub fn relocate(&self, point: u32, by: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        self.relocated::<false>(point, by, territory, buffer)
+    }
+
+    /// The same, in a [plain](Self::is_plain) mesh if `PLAIN`: then nothing but that is looked at.
+    pub fn relocated<const PLAIN: bool>(
+        &self,
+        point: u32,
+        by: DVec2,
+        territory: Territory,
+        buffer: &mut StarBuffer,
+    ) -> Result<(), Outside> {
         debug_assert!(self.is_free(point, territory));
+        if PLAIN {
+            let by = by.clamp(-0.5 * self.domain.size, 0.5 * self.domain.size);
+            return self.go::<true>(point, self.domain.land(self.mesh.position(point) + by), territory, buffer);
+        }
         if self.is_fixed(point) {
             return Ok(());
         }
@@ -35,13 +50,13 @@ impl LiveMesh {
         let by = by.clamp(-0.5 * self.domain.size, 0.5 * self.domain.size);
         let target = self.land(point, from, from + by);
         let target = if self.is_on_rail(point) { self.keep_order(point, target, territory, buffer)? } else { target };
-        self.go(point, target, territory, buffer)?;
+        self.go::<false>(point, target, territory, buffer)?;
         if self.is_cover() {
             // On the grid, so that copies move alike to the bit.
             let (by, went) = (self.domain.spoke(from, target), self.domain.spoke(from, self.mesh.position(point)));
             for copy in (point..self.n_live).step_by(self.n_points()).skip(1) {
                 let from = self.mesh.position(copy);
-                self.go(copy, self.domain.land(from + by), territory, buffer)?;
+                self.go::<false>(copy, self.domain.land(from + by), territory, buffer)?;
                 if self.domain.spoke(from, self.mesh.position(copy)) != went {
                     self.is_torn.store(true, Relaxed);
                 }
@@ -84,21 +99,22 @@ impl LiveMesh {
     }
 
     /// Moves a vertex to its target, or as far as it gets.
-    fn go(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        if !self.step(v, target, territory)? {
+    fn go<const PLAIN: bool>(&self, v: u32, target: DVec2, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        if !self.step::<PLAIN>(v, target, territory)? {
             self.go_in_stages(v, target, territory, buffer)?;
         }
-        if let Some(held) = &self.held {
+        if let Some(held) = self.held.as_ref().filter(|_| !PLAIN) {
             held.arrive(v, self.mesh.position(v));
         }
         Ok(())
     }
 
     /// Moves a vertex at once, if all triangles around keep some area.
-    fn step(&self, v: u32, target: DVec2, territory: Territory) -> Result<bool, Outside> {
+    fn step<const PLAIN: bool>(&self, v: u32, target: DVec2, territory: Territory) -> Result<bool, Outside> {
         let area = self.spacing * self.spacing;
         let room = ROOM
             * match (&self.field, &self.held) {
+                _ if PLAIN => area,
                 (Some(field), _) => area / field.at(target).max(1.0),
                 (None, Some(held)) => held.size(v) * held.size(v),
                 (None, None) => area,
@@ -112,7 +128,7 @@ impl LiveMesh {
             if !self.is_free(vertex, territory) {
                 return Err(Outside);
             }
-            self.soil(vertex);
+            self.soil_in::<PLAIN>(vertex);
             let way = self.spoke(target, vertex);
             if !(before.perp_dot(way) > room && self.domain.is_spoke(way - before)) {
                 return Ok(false);
@@ -121,7 +137,7 @@ impl LiveMesh {
             if half_edge == first {
                 break;
             }
-            if half_edge == BORDER {
+            if !PLAIN && half_edge == BORDER {
                 if !self.is_free(start, territory) {
                     return Err(Outside);
                 }
@@ -130,7 +146,7 @@ impl LiveMesh {
             }
         }
         self.mesh.set_position(v, target);
-        self.soil(v);
+        self.soil_in::<PLAIN>(v);
         Ok(true)
     }
 

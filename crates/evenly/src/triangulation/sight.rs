@@ -113,14 +113,16 @@ impl Sight {
         outline.clear();
         for together in turns.chunk_by(|a, b| a.angle == b.angle) {
             let way = together[0].way.normalize_or_zero();
-            let before = nearest(way, sides, fronts, active);
+            let to_sides = to_sides(way, sides);
+            let before = to_fronts(way, fronts, active).min(to_sides);
             for front in together.iter().filter_map(|turn| turn.front) {
                 match active.iter().position(|&other| other == front) {
                     Some(k) => _ = active.swap_remove(k),
                     None => active.push(front),
                 }
             }
-            for place in [before, nearest(way, sides, fronts, active)].map(|distance| distance * way) {
+            let after = to_fronts(way, fronts, active).min(to_sides);
+            for place in [before, after].map(|distance| distance * way) {
                 if outline.last() != Some(&place) {
                     outline.push(place);
                 }
@@ -199,19 +201,24 @@ impl Sight {
     }
 }
 
-/// The distance of what stands nearest in a way: a side, or a front.
-fn nearest(way: DVec2, sides: &[Side], fronts: &[[DVec2; 2]], active: &[u32]) -> f64 {
+/// How far it is in a way to the nearest of a cell's sides; no farther than can be seen.
+fn to_sides(way: DVec2, sides: &[Side]) -> f64 {
     let to_side = |side: &Side| {
         let towards = side.direction.dot(way);
         if towards > 0.0 { 0.5 * side.way.dot(side.direction) / towards } else { f64::INFINITY }
     };
+    sides.iter().map(to_side).fold(FAR, f64::min)
+}
+
+/// How far it is in a way to the nearest of the fronts that stand there.
+fn to_fronts(way: DVec2, fronts: &[[DVec2; 2]], active: &[u32]) -> f64 {
     let to_front = |&front: &u32| {
         let [a, b] = fronts[front as usize];
         let along = b - a;
         let across = way.perp_dot(along);
         if across > 0.0 { a.perp_dot(along) / across } else { a.length().min(b.length()) }
     };
-    sides.iter().map(to_side).chain(active.iter().map(to_front)).fold(FAR, f64::min)
+    active.iter().map(to_front).fold(f64::INFINITY, f64::min)
 }
 
 /// What grows with the angle of a way.

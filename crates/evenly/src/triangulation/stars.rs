@@ -84,8 +84,16 @@ impl StarBuffer {
 impl LiveMesh {
     /// Makes the spokes of `v` Delaunay, and reads its star.
     pub fn read(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
-        self.restore(v, territory, &mut buffer.spokes, &mut buffer.n_flips)?;
-        self.fill(v, buffer);
+        self.read_in::<false>(v, territory, buffer)
+    }
+
+    /// The same, in a [plain](Self::is_plain) mesh if `PLAIN`: then nothing but that is looked at.
+    pub fn read_in<const PLAIN: bool>(&self, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+        self.restore_in::<PLAIN>(v, territory, &mut buffer.spokes, &mut buffer.n_flips)?;
+        self.fill::<PLAIN>(v, buffer);
+        if PLAIN {
+            return Ok(());
+        }
         if let Some(border) = &self.domain.border
             && !self.is_clear(border, v, buffer)
         {
@@ -212,8 +220,18 @@ impl LiveMesh {
 
     /// Goes around `v`, and flips its spokes until none is illegal.
     pub(super) fn restore(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke>, n_flips: &mut usize) -> Result<(), Outside> {
+        self.restore_in::<false>(v, territory, ring, n_flips)
+    }
+
+    fn restore_in<const PLAIN: bool>(
+        &self,
+        v: u32,
+        territory: Territory,
+        ring: &mut Vec<Spoke>,
+        n_flips: &mut usize,
+    ) -> Result<(), Outside> {
         loop {
-            self.walk(v, territory, ring)?;
+            self.walk_in::<PLAIN>(v, territory, ring)?;
             let Some(h) = self.find_illegal(ring) else { return Ok(()) };
             self.flip(h);
             *n_flips += 1;
@@ -222,6 +240,11 @@ impl LiveMesh {
 
     /// Goes once around `v`, counter-clockwise.
     pub(super) fn walk(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke>) -> Result<(), Outside> {
+        self.walk_in::<false>(v, territory, ring)
+    }
+
+    #[inline]
+    fn walk_in<const PLAIN: bool>(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke>) -> Result<(), Outside> {
         ring.clear();
         let at = self.mesh.position(v);
         let first = self.mesh.outgoing(v);
@@ -239,7 +262,7 @@ impl LiveMesh {
             if half_edge == first {
                 return Ok(());
             }
-            if half_edge == BORDER {
+            if !PLAIN && half_edge == BORDER {
                 if !self.is_free(vertex, territory) {
                     return Err(Outside);
                 }
@@ -266,7 +289,7 @@ impl LiveMesh {
     }
 
     /// Turns the spokes in the buffer into a star; near a wall that of the cell which the walls clip.
-    fn fill(&self, v: u32, buffer: &mut StarBuffer) {
+    fn fill<const PLAIN: bool>(&self, v: u32, buffer: &mut StarBuffer) {
         let StarBuffer { star, spokes, senses, wall_cell, sight, .. } = buffer;
         sight.outline.clear();
         let scale = 1.0 / self.spacing;
@@ -283,6 +306,9 @@ impl LiveMesh {
             let over_product = inverse * cross;
             let cos = spoke.dot * area_scale * over_product;
             star.wedges.push(Wedge { cos, sin: cross * over_product, cosecant: product * product * inverse });
+        }
+        if PLAIN {
+            return;
         }
         if let Some(held) = &self.held {
             if senses.echoes {

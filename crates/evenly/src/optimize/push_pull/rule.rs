@@ -77,8 +77,9 @@ fn cover(star: &mut Star, radius: f64, relaxation: f64) -> bool {
 /// Conflict (optimization 1): a neighbour that is too near is pushed away. One's own image behind a wall is no neighbour.
 fn push_away(star: &mut Star, distance: f64, relaxation: f64) -> bool {
     let mut has_pushed = false;
+    let is_weighted = !star.metric.spokes.is_empty();
     for k in 0..star.n_spokes() {
-        let stretch = star.stretch(k);
+        let stretch = if is_weighted { star.stretch(k) } else { 1.0 };
         let weighted = star.lengths[k] * stretch;
         if weighted < distance && !star.is_mirror[k] {
             let missing = distance * (1.0 + OVERSHOOT) - weighted;
@@ -108,8 +109,7 @@ fn equalize(star: &mut Star, tolerance: f64, relaxation: f64) -> bool {
     }
     // A side that is thinner than others, as one that reaches into a gap, counts as a shorter one.
     let densest = metric.sides.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let thinness = |k: usize| metric.sides.get(k).map_or(1.0, |density| density / densest);
-    sides.iter_mut().enumerate().for_each(|(k, side)| *side *= thinness(k));
+    sides.iter_mut().zip(&metric.sides).for_each(|(side, density)| *side *= density / densest);
     let short = SHORT * sides.iter().copied().fold(0.0, f64::max);
     for side in sides.iter_mut().filter(|side| **side < short) {
         *side = 0.0;
