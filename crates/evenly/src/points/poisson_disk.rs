@@ -282,6 +282,7 @@ impl Darts {
     }
 
     /// Throws darts at a cell until it is covered, and at those around it as their time comes.
+    #[inline(never)]
     fn finish(&mut self, cell: usize) {
         while self.cells.clocks[cell] < f32::INFINITY {
             self.waiting.push(cell);
@@ -356,7 +357,12 @@ impl Darts {
     /// Whether no point is nearer to a place than the root of `squared`.
     fn is_farther(&self, cell: usize, place: DVec2, squared: f64) -> bool {
         // No distance from NaN is below anything.
-        !self.cells.around(cell).any(|point| point.distance_squared(place) < squared && self.cells.sees(point, place))
+        let is_near = |point: DVec2| point.distance_squared(place) < squared;
+        let mut around = self.cells.around(cell);
+        match self.cells.walls {
+            None => !around.any(is_near),
+            Some(_) => !around.any(|point| is_near(point) && self.cells.sees(point, place)),
+        }
     }
 
     /// A place that covers the dart's, and is not too near to a point.
@@ -437,8 +443,12 @@ impl Darts {
             for by in [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE] {
                 let centre = square + by * half;
                 let is_covered = |near: &DVec2| ((*near - centre).abs() + half).length_squared() <= self.coverage;
-                let is_seen = |near: &&DVec2| self.is_seen(**near, centre, half, level);
-                if !self.near.iter().filter(|near| is_covered(near)).any(|near| is_seen(&near)) && !self.is_outside(centre, half, level) {
+                // A loop of its own where nothing hides one place from another: it is most of the work.
+                let is_all_covered = match self.cells.walls {
+                    None => self.near.iter().any(is_covered),
+                    Some(_) => self.near.iter().any(|near| is_covered(near) && self.is_seen(*near, centre, half, level)),
+                };
+                if !is_all_covered && !self.is_outside(centre, half, level) {
                     self.divided.push(centre);
                 }
             }
