@@ -38,7 +38,7 @@ pub(super) struct Whole<'a> {
     pub source: &'a [u32],
 }
 
-/// Cuts out what is around triangles for which `is_bad`; `None` where these are no few.
+/// Cuts out what is around triangles for which `is_bad`; `None` if that is more than [`MOST_SHARE`] of all.
 pub(super) fn cut_out(whole: Whole, is_bad: impl Fn([u32; 3]) -> bool) -> Option<Vec<Patch>> {
     let half_edges = &whole.triangulation.half_edges;
     let n_vertices = whole.triangulation.positions.len();
@@ -191,7 +191,7 @@ pub(super) fn put_back(whole: State, patches: Vec<(Patch, State)>) -> State {
         }
     }
 
-    // Numbered anew in the same order.
+    // Points that are left are renumbered in the same order.
     let mut number = vec![BORDER; points.len()];
     let kept: Vec<usize> = (0..points.len()).filter(|&k| !is_gone[k]).collect();
     kept.iter().zip(0..).for_each(|(&k, new)| number[k] = new);

@@ -110,7 +110,7 @@ impl Rounds<'_> {
         best
     }
 
-    /// The whole, and what is around its bad triangles, but those that are given up; `None` where these are no few.
+    /// The whole, and what is around its bad triangles, except those that are given up; `None` if that is too much of it.
     fn patches(
         &self,
         mesh: &LiveMesh,

@@ -67,7 +67,7 @@ impl Polygon {
     }
 }
 
-/// A polygon is looked at anew with this part of its corners.
+/// A polygon is examined again once it has at most this share of the corners that it had the last time.
 const WORTH_A_LOOK: f64 = 0.9;
 /// So many corners around a collapse are looked at.
 const AROUND: usize = 8;
