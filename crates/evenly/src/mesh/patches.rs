@@ -191,22 +191,8 @@ pub(super) fn put_back(whole: State, patches: Vec<(Patch, State)>) -> State {
         }
     }
 
-    // Points that are left are renumbered in the same order.
-    let mut number = vec![BORDER; points.len()];
-    let kept: Vec<usize> = (0..points.len()).filter(|&k| !is_gone[k]).collect();
-    kept.iter().zip(0..).for_each(|(&k, new)| number[k] = new);
-    let edges = bonds.edges.iter().zip(&has_gone).filter(|(_, has_gone)| !**has_gone);
-    let edges = edges.map(|(edge, _)| Edge { ends: edge.ends.map(|v| number[v as usize]), ..*edge }).collect();
-    State {
-        points: kept.iter().map(|&k| points[k]).collect(),
-        corners: kept.iter().map(|&k| corners[k]).collect(),
-        bonds: Bonds {
-            tracks: kept.iter().map(|&k| bonds.tracks[k]).collect(),
-            hints: kept.iter().map(|&k| bonds.hints[k]).collect(),
-            edges,
-            ..bonds
-        },
-    }
+    let edges = bonds.edges.iter().zip(&has_gone).filter(|(_, has_gone)| !**has_gone).map(|(&edge, _)| edge).collect();
+    State { points, corners, bonds }.without(&is_gone, edges)
 }
 
 #[cfg(test)]

@@ -57,6 +57,24 @@ impl State {
         Some(Self { points, corners, bonds })
     }
 
+    /// The points that are not gone, in the same order, and these edges between them.
+    pub fn without(self, is_gone: &[bool], edges: Vec<Edge>) -> Self {
+        let Self { points, corners, bonds } = self;
+        let mut number = vec![BORDER; points.len()];
+        let kept: Vec<usize> = (0..points.len()).filter(|&k| !is_gone[k]).collect();
+        kept.iter().zip(0..).for_each(|(&k, new)| number[k] = new);
+        Self {
+            points: kept.iter().map(|&k| points[k]).collect(),
+            corners: kept.iter().map(|&k| corners[k]).collect(),
+            bonds: Bonds {
+                tracks: kept.iter().map(|&k| bonds.tracks[k]).collect(),
+                hints: kept.iter().map(|&k| bonds.hints[k]).collect(),
+                edges: edges.into_iter().map(|edge| Edge { ends: edge.ends.map(|v| number[v as usize]), ..edge }).collect(),
+                ..bonds
+            },
+        }
+    }
+
     /// The same along the Hilbert curve.
     pub fn in_order(self, domain: &Domain) -> Self {
         let order = hilbert_order(&self.points, domain.size);

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use crate::mesh::state::State;
-use crate::triangulation::{BORDER, Bonds, Edge, Track};
+use crate::triangulation::{BORDER, Edge, Track};
 
 /// What is to be changed.
 #[derive(Debug, Clone, Copy)]
@@ -77,28 +77,21 @@ impl Drafts {
         points.len() as u32 - 1
     }
 
-    /// What is left, numbered anew in the same order.
+    /// What is left.
     fn finish(self) -> State {
-        let Self { state: State { points, corners, bonds }, is_gone, .. } = self;
+        let Self { state, is_gone, .. } = self;
+        let edges = &state.bonds.edges;
         // Where a point on a rail goes, the edges before and after it become one.
-        let leaving: HashMap<[u32; 2], u32> = bonds.edges.iter().map(|edge| ([edge.ends[0], edge.rail], edge.ends[1])).collect();
-        let mut number = vec![BORDER; points.len()];
-        let kept: Vec<usize> = (0..points.len()).filter(|&k| !is_gone[k]).collect();
-        kept.iter().zip(0..).for_each(|(&k, new)| number[k] = new);
-        let edges = bonds.edges.iter().filter(|edge| !is_gone[edge.ends[0] as usize]).map(|edge| {
+        let leaving: HashMap<[u32; 2], u32> = edges.iter().map(|edge| ([edge.ends[0], edge.rail], edge.ends[1])).collect();
+        let left = edges.iter().filter(|edge| !is_gone[edge.ends[0] as usize]).map(|edge| {
             let [from, mut to] = edge.ends;
             while is_gone[to as usize] {
                 let Some(&after) = leaving.get(&[to, edge.rail]) else { break };
                 to = after;
             }
-            Edge { ends: [from, to].map(|v| number[v as usize]), ..*edge }
+            Edge { ends: [from, to], ..*edge }
         });
-        let bonds = Bonds {
-            tracks: kept.iter().map(|&k| bonds.tracks[k]).collect(),
-            hints: kept.iter().map(|&k| bonds.hints[k]).collect(),
-            edges: edges.collect(),
-            ..bonds
-        };
-        State { points: kept.iter().map(|&k| points[k]).collect(), corners: kept.iter().map(|&k| corners[k]).collect(), bonds }
+        let left = left.collect();
+        state.without(&is_gone, left)
     }
 }
