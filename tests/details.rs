@@ -3,7 +3,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use evenly::{Mesh, MeshParams, Polygon, RunContext, mesh, mesh_quality};
+use std::collections::HashSet;
+
+use evenly::{EdgeKind, Mesh, MeshParams, Polygon, RunContext, mesh, mesh_quality};
 
 type Ring = Vec<[f64; 2]>;
 
@@ -29,6 +31,12 @@ fn check(polygon: &Polygon, params: &MeshParams) -> Mesh {
     assert!(least_deg(&mesh) >= 25.0, "{:?}: {}", polygon.rings(), least_deg(&mesh));
     let quality = mesh_quality(&mesh);
     assert!((quality.area / polygon.area() - 1.0).abs() < 1e-9);
+    // Each side of a triangle has another triangle across, or lies on the border.
+    let sides: HashSet<[usize; 2]> = mesh.triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]).collect();
+    assert_eq!(sides.len(), 3 * mesh.triangles.len());
+    let border = mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. })).map(|edge| edge.ends);
+    let open: HashSet<[usize; 2]> = sides.iter().copied().filter(|&[a, b]| !sides.contains(&[b, a])).collect();
+    assert_eq!(open, border.collect());
     mesh
 }
 
@@ -57,11 +65,25 @@ fn details_that_stand_alone_take_few_triangles() {
         for gap in [0.1, 1e-3, 1e-5] {
             let params = MeshParams { seed, fixed: vec![[5.0, gap]], ..MeshParams::new(1.0) };
             let n = check(&polygon(vec![square(10.0)]), &params).triangles.len() - plain;
-            // Some 18 each time that the gap halves.
-            let halvings = (1.0 / gap).log2();
-            assert!((n as f64) < 22.0 * halvings, "seed {seed}, gap {gap}: {n}");
-            let corner = polygon(vec![square(10.0), vec![[5.0, gap], [6.0, 3.0], [4.0, 3.0]]]);
-            check(&corner, &MeshParams { seed, ..MeshParams::new(1.0) });
+            // Some 5 each time that the gap halves.
+            assert!((n as f64) < 20.0 + 5.0 * (1.0 / gap).log2(), "{gap}, seed {seed}: {n}");
+        }
+    }
+}
+
+#[test]
+fn few_triangles_stand_around_a_lone_point_or_corner() {
+    let hole = |tip: f64| vec![[5.0, tip], [4.0, 2.0], [6.0, 2.0]];
+    for seed in 0..6 {
+        for gap in [1e-2, 1e-4, 1e-5] {
+            let at = [4.5 + 0.2 * seed as f64, gap];
+            let beside = check(&polygon(vec![square(10.0)]), &MeshParams { seed, fixed: vec![at], ..MeshParams::new(1.0) });
+            let below = check(&polygon(vec![square(10.0), hole(gap)]), &MeshParams { seed, ..MeshParams::new(1.0) });
+            for (mesh, centre) in [(beside, at), (below, [5.0, gap])] {
+                let is_near = |v: usize| (mesh.vertices[v][0] - centre[0]).hypot(mesh.vertices[v][1] - centre[1]) < 1.0;
+                let n = mesh.triangles.iter().filter(|t| t.iter().all(|&v| is_near(v))).count();
+                assert!(n <= 60, "{gap}, seed {seed}: {n}");
+            }
         }
     }
 }

@@ -55,7 +55,7 @@ impl Aim {
 }
 
 /// The cosines of a triangle's angles.
-fn cosines([a, b, c]: [DVec2; 3]) -> [f64; 3] {
+pub(super) fn cosines([a, b, c]: [DVec2; 3]) -> [f64; 3] {
     let cosine = |at: DVec2, one: DVec2, other: DVec2| {
         (one - at).dot(other - at) / ((one - at).length() * (other - at).length()).max(f64::MIN_POSITIVE)
     };

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::caps::Cap;
+use super::coarsen::{Coarse, Coarsening};
 use super::outline::{Of, Outline};
 use super::settled::Settled;
 use super::{EdgeKind, Mesh, MeshEdge};
@@ -50,8 +51,13 @@ pub(super) fn finish(
     }
     let Refinement { half_edges, positions, segments, .. } = refinement;
     corners.resize(positions.len(), BORDER);
-
     let sizes = sizes_of_all(sizes, hints, &sizing, &half_edges, &positions);
+    let rails: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
+    let mut coarsening = Coarsening::new(&half_edges, positions, segments, &rails, refined_deg);
+    coarsening.run(n_settled, |v| corners[v as usize] != BORDER, |v| sizes[v as usize]);
+    let Coarse { half_edges, positions, segments, source } = coarsening.finish();
+    let corners: Vec<u32> = source.iter().map(|&v| corners[v as usize]).collect();
+    let sizes: Vec<f64> = source.iter().map(|&v| sizes[v as usize]).collect();
 
     // Vertices of one corner are one; those as they were given keep their bits.
     let mut mesh = Mesh::default();
@@ -115,7 +121,7 @@ pub(super) fn finish(
         }
     }
     mesh.n_in_corners = mesh.triangles.len() - n_triangles;
-    (mesh, positions.len() - n_settled)
+    (mesh, positions.len().saturating_sub(n_settled))
 }
 
 /// The wanted spacing at all vertices: of those that refinement has added by a walk from where a neighbour is.

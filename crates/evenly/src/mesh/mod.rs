@@ -15,6 +15,7 @@ mod background;
 mod border;
 mod caps;
 mod cells;
+mod coarsen;
 mod finish;
 mod method;
 mod mover;
