@@ -125,9 +125,9 @@ fn touring() {
     let n = 20_000;
     let points = white(Rectangle::new([0.0, 0.0], [1.0, 1.0]).unwrap(), n, 1).unwrap();
     let at = |index: usize| points.positions()[index];
-    let order = tour(&points);
+    let order = tour(&points, &RunContext::default());
     let length: f64 = order.windows(2).map(|step| (at(step[1])[0] - at(step[0])[0]).hypot(at(step[1])[1] - at(step[0])[1])).sum();
-    let seconds = best(3, || tour(&points)).as_secs_f64();
+    let seconds = best(3, || tour(&points, &RunContext::default())).as_secs_f64();
     let share = length / (0.7124 * (n as f64).sqrt());
     println!("| tour of 20000 random points | within 8 % of 0.7124 sqrt(n A) | {:+.1} % in {seconds:.2} s |", 100.0 * (share - 1.0));
 }

@@ -36,7 +36,13 @@ pub fn code() -> u8 {
 /// From here on a signal ends the run after the step at hand, and the state reached is kept; before, there is
 /// nothing to keep.
 pub fn cancels(cancel: &CancelToken, is_quiet: bool) {
-    *KEEPING.lock().unwrap_or_else(PoisonError::into_inner) = Some(Keeping { cancel: cancel.clone(), is_quiet, asked: None });
+    let mut keeping = KEEPING.lock().unwrap_or_else(PoisonError::into_inner);
+    keeping.get_or_insert_with(|| Keeping { cancel: cancel.clone(), is_quiet, asked: None });
+}
+
+/// All that is to be kept is written: from here on a signal ends the process at once.
+pub fn ends() {
+    *KEEPING.lock().unwrap_or_else(PoisonError::into_inner) = None;
 }
 
 fn on_signal(signal: u8) {

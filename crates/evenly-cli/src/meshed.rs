@@ -66,18 +66,35 @@ pub struct Given {
     pub density: Option<Density>,
 }
 
-/// A mesh, and what there is to say of it.
+/// A mesh, and how it came about.
 pub struct Meshed {
     /// The mesh.
     pub mesh: Mesh,
-    /// What it is worth.
-    pub quality: MeshQuality,
     /// How it came about.
     pub report: Report,
-    /// Where demands were not met.
-    pub unmet: Vec<Unmet>,
     /// What was asked for.
     pub parameters: Value,
+}
+
+/// The measures of a mesh.
+pub struct Measured {
+    /// What its triangles are worth.
+    pub quality: MeshQuality,
+    /// Where demands were not met.
+    pub unmet: Vec<Unmet>,
+    /// What the polygon forces.
+    pub notes: Vec<String>,
+}
+
+impl Meshed {
+    /// Measures the mesh, and looks where it is not as wished for.
+    pub fn measured(&self, wishes: &MeshWishes) -> Measured {
+        Measured {
+            quality: mesh_quality(&self.mesh),
+            unmet: unmet(&self.mesh, wishes.min_angle.unwrap_or(LEAST_ANGLE_DEG), wishes.no_obtuse),
+            notes: forced(&self.mesh, LEAST_ANGLE_DEG).into_iter().collect(),
+        }
+    }
 }
 
 /// Makes a mesh; of wishes in words see [`wishes`].
@@ -145,18 +162,11 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
     let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(spacing) };
     let (mesh, mut report) = mesh(polygon, &params, run).map_err(told)?;
     report.notes.splice(0..0, notes);
-    report.notes.extend(forced(&mesh, LEAST_ANGLE_DEG));
     if wishes.grade.is_none() && params.wanted.is_none() && report.outcome != Outcome::Cancelled {
         let wanted = wishes.n_triangles.map_or_else(|| 4.0 * polygon.area() / (3f64.sqrt() * spacing * spacing), |n| n as f64);
         report.notes.extend(details::told(polygon, &params, mesh.triangles.len() - mesh.n_in_corners, wanted));
     }
-    Ok(Meshed {
-        quality: mesh_quality(&mesh),
-        unmet: unmet(&mesh, wishes.min_angle.unwrap_or(LEAST_ANGLE_DEG), wishes.no_obtuse),
-        parameters: serde_json::json!(params),
-        mesh,
-        report,
-    })
+    Ok(Meshed { parameters: serde_json::json!(params), mesh, report })
 }
 
 /// Wishes in the command line's words, as `--spacing=0.1`.

@@ -41,10 +41,19 @@ const SIZED_TOLERANCE: f64 = 0.35;
 /// Sweeps of opt-beta on a mesh, unless others are asked for.
 pub(crate) const OPT_BETA_SWEEPS: usize = 200;
 
-/// A new mesh, and what there is to say of it.
+/// A new mesh, and how it came about.
 pub struct Made {
     /// The mesh, and where its vertices lie on the one that was given.
     pub remeshed: Remeshed,
+    /// How it came about.
+    pub report: Report,
+    /// What was asked for.
+    pub parameters: Value,
+    method: RemeshMethod,
+}
+
+/// The measures of a new mesh.
+pub struct Measured {
     /// What its triangles are worth.
     pub quality: SurfaceQuality,
     /// How far it is from the one that was given.
@@ -55,10 +64,8 @@ pub struct Made {
     pub breaches: Vec<CertificateBreach>,
     /// Lengths that are not what was asked for, where the run has not converged.
     pub missed: Vec<MissedLengths>,
-    /// How it came about.
-    pub report: Report,
-    /// What was asked for.
-    pub parameters: Value,
+    /// What had to be mended to measure it.
+    pub notes: Vec<String>,
 }
 
 /// The surface of a mesh.
@@ -97,8 +104,8 @@ pub fn notes_on(surface: &Surface) -> Vec<String> {
     surface.notes().iter().cloned().chain(seams).collect()
 }
 
-/// Makes a new mesh, from given points if there are any; of wishes in words see [`wishes`]. What is measured is
-/// the mesh as it will be written: `round` brings its positions to the precision of a file.
+/// Makes a new mesh, from given points if there are any; of wishes in words see [`wishes`]. Its positions are
+/// those that will be written: `round` brings them to the precision of a file.
 ///
 /// # Errors
 /// As [`remesh`], with the names of flags; `name` is the mesh's.
@@ -139,27 +146,34 @@ pub fn remeshed(
     if n_equal > 0 {
         report.notes.push(format!("points in the place of an earlier one, left out: {n_equal}"));
     }
-    // What has no area, or touches itself, is mended for the measures alone.
-    let made = Surface::repaired(&remeshed.mesh)?;
-    report.notes.extend(made.notes().iter().map(|note| format!("in the new mesh, as measured: {note}")));
-    let mut breaches = targets(&method).map_or_else(Vec::new, |beta| certificate(&made, beta));
-    worst_first(&mut breaches);
-    let missed = match method {
-        RemeshMethod::PushPull(params) if report.outcome == Outcome::IterationLimit => {
-            missed_lengths(&made, params.min_distance, params.coverage_radius)
-        }
-        _ => Vec::new(),
-    };
-    Ok(Made {
-        quality: surface_quality(&made),
-        distance: surface_distance(&made, surface),
-        self_intersections: self_intersections(&made).len(),
-        breaches,
-        missed,
-        parameters: serde_json::json!(params),
-        remeshed,
-        report,
-    })
+    Ok(Made { remeshed, report, parameters: serde_json::json!(params), method })
+}
+
+impl Made {
+    /// Measures the mesh, which was made of a surface.
+    ///
+    /// # Errors
+    /// As [`Surface::repaired`].
+    pub fn measured(&self, surface: &Surface) -> anyhow::Result<Measured> {
+        // What has no area, or touches itself, is mended for the measures alone.
+        let made = Surface::repaired(&self.remeshed.mesh)?;
+        let mut breaches = targets(&self.method).map_or_else(Vec::new, |beta| certificate(&made, beta));
+        worst_first(&mut breaches);
+        let missed = match self.method {
+            RemeshMethod::PushPull(params) if self.report.outcome == Outcome::IterationLimit => {
+                missed_lengths(&made, params.min_distance, params.coverage_radius)
+            }
+            _ => Vec::new(),
+        };
+        Ok(Measured {
+            quality: surface_quality(&made),
+            distance: surface_distance(&made, surface),
+            self_intersections: self_intersections(&made).len(),
+            breaches,
+            missed,
+            notes: made.notes().iter().map(|note| format!("in the new mesh, as measured: {note}")).collect(),
+        })
+    }
 }
 
 /// Puts the worst triangles first: those with the smallest angles, or the largest.

@@ -267,8 +267,19 @@ fn work(run: &Report) -> String {
     format!("{visits:.1} visits a point, {} flips, {} triangulations", run.flips, run.triangulations)
 }
 
+/// A run's context: the bar shows how far it is; once an optimiser has begun, a signal cancels the run, whose state
+/// is kept. Before, there is nothing to keep.
+pub fn context<'a>(bar: &'a ProgressBar, cancel: &'a CancelToken, is_quiet: bool) -> RunContext<'a> {
+    RunContext::default().with_cancel(cancel.clone()).on_progress(move |progress| {
+        if progress.phase == Phase::Optimize {
+            interrupt::cancels(cancel, is_quiet);
+        }
+        show(bar, progress);
+    })
+}
+
 /// Shows how far a run has come.
-pub fn show(bar: &ProgressBar, progress: Progress) {
+fn show(bar: &ProgressBar, progress: Progress) {
     let energy = progress.energy.map_or_else(String::new, |energy| format!(", energy {energy:.5}"));
     bar.set_message(match (progress.phase, progress.stable_share) {
         (Phase::Separate | Phase::Triangulate, _) => "triangulating".to_owned(),

@@ -47,13 +47,16 @@ pub fn mesh(
     };
     run(py, Terms { threads, callback }, move |context, _| {
         let names = Names { polygon: "the polygon".as_ref(), fixed: "fixed".as_ref(), lines: "lines".as_ref() };
-        let made = meshed(&polygon, names, &wishes(&words)?, given, context)?;
-        let unmet: Vec<String> = made.unmet.iter().map(ToString::to_string).collect();
-        let Mesh { vertices, triangles, edges, sizes, regions, region_names, n_in_corners } = made.mesh;
+        let wishes = wishes(&words)?;
+        let made = meshed(&polygon, names, &wishes, given, context)?;
+        let measured = made.measured(&wishes);
+        let unmet: Vec<String> = measured.unmet.iter().map(ToString::to_string).collect();
+        let notes: Vec<&String> = made.report.notes.iter().chain(&measured.notes).collect();
         let said = json(&serde_json::json!({
-            "quality": made.quality, "run": made.report, "notes": made.report.notes, "unmet": unmet,
-            "region_names": region_names, "n_in_corners": n_in_corners,
+            "quality": measured.quality, "run": made.report, "notes": notes, "unmet": unmet,
+            "region_names": made.mesh.region_names, "n_in_corners": made.mesh.n_in_corners,
         }))?;
+        let Mesh { vertices, triangles, edges, sizes, regions, .. } = made.mesh;
         answer(move |py| {
             let ends = edges.iter().map(|edge| edge.ends.map(|v| v as i64)).collect();
             let triangles = triangles.iter().map(|corners| corners.map(|v| v as i64)).collect();

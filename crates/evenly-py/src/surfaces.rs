@@ -79,12 +79,13 @@ pub fn remesh(
             None => remeshed::points(&wishes)?,
         };
         let made = remeshed(&surface, &name, &wishes, sizing.as_ref(), points, |_| {}, context)?;
-        notes.extend(made.report.notes.iter().cloned());
+        let measured = made.measured(&surface)?;
+        notes.extend(made.report.notes.iter().chain(&measured.notes).cloned());
         let said = json(&serde_json::json!({
-            "quality": made.quality,
-            "distance": made.distance,
-            "self_intersections": made.self_intersections,
-            "breaches": made.breaches,
+            "quality": measured.quality,
+            "distance": measured.distance,
+            "self_intersections": measured.self_intersections,
+            "breaches": measured.breaches,
             "run": made.report,
             "notes": notes,
         }))?;

@@ -10,6 +10,7 @@
 use glam::DVec2;
 
 use crate::points::{PointSet, separate};
+use crate::run::RunContext;
 use crate::space::Domain;
 use crate::triangulation::delaunay;
 
@@ -23,18 +24,19 @@ const SEGMENT: usize = 3;
 const FEWEST: usize = 8;
 
 /// The order in which a pen visits all points on a short way. It crosses no border, not that of a torus either.
+/// After an interrupt the way is as short as it has become.
 ///
 /// # Example
 /// ```
-/// use evenly::{Rectangle, tour, white};
+/// use evenly::{Rectangle, RunContext, tour, white};
 ///
 /// let points = white(Rectangle::new([0.0, 0.0], [1.0, 1.0])?, 2000, 7)?;
-/// let places: Vec<[f64; 2]> = tour(&points).iter().map(|&index| points.positions()[index]).collect();
+/// let places: Vec<[f64; 2]> = tour(&points, &RunContext::default()).iter().map(|&index| points.positions()[index]).collect();
 /// let length: f64 = places.windows(2).map(|step| (step[0][0] - step[1][0]).hypot(step[0][1] - step[1][1])).sum();
 /// assert!(length < 0.8 * 2000f64.sqrt());
 /// # Ok::<(), evenly::Error>(())
 /// ```
-pub fn tour(points: &PointSet) -> Vec<usize> {
+pub fn tour(points: &PointSet, run: &RunContext) -> Vec<usize> {
     let space = points.space();
     let domain = Domain::new(space.origin(), space.size(), false);
     let mut positions: Vec<DVec2> = points.positions().iter().map(|&p| domain.normalize(p)).collect();
@@ -45,7 +47,7 @@ pub fn tour(points: &PointSet) -> Vec<usize> {
     let order = separate(&domain, &mut positions, 0, spacing).order;
     let places: Vec<DVec2> = order.iter().map(|&index| positions[index as usize]).collect();
     let mut found = Tour::new(&domain, places);
-    found.shorten();
+    found.shorten(run);
     found.opened().into_iter().map(|k| order[k as usize] as usize).collect()
 }
 
@@ -112,10 +114,10 @@ impl Tour {
     }
 
     /// Looks at every point, and again at those around which something has changed, until nothing is gained.
-    fn shorten(&mut self) {
+    fn shorten(&mut self, run: &RunContext) {
         while let Some(a) = self.waiting.pop() {
             self.is_waiting[a as usize] = false;
-            while self.improve(a) {}
+            while !run.is_cancelled() && self.improve(a) {}
         }
     }
 
@@ -324,7 +326,7 @@ mod tests {
     fn a_tour_through_random_points_is_nearly_as_short_as_one_can_be() {
         let points = white(Rectangle::new([0.0, 0.0], [1.0, 1.0]).unwrap(), 20_000, 3).unwrap();
         let expected = 0.7124 * 20_000f64.sqrt();
-        let share = length(&points, &tour(&points)) / expected;
+        let share = length(&points, &tour(&points, &RunContext::default())) / expected;
         assert!(share < 1.08, "{share}");
     }
 
@@ -342,7 +344,7 @@ mod tests {
                 let places = points.positions().iter().enumerate().map(|(k, &p)| if k % 3 == 0 { points.positions()[0] } else { p });
                 points = PointSet::new(&space, places.collect()).unwrap();
             }
-            let mut seen = tour(&points);
+            let mut seen = tour(&points, &RunContext::default());
             prop_assert!(n < 20 || length(&points, &seen) <= 2.0 * (n as f64 * space.area()).sqrt() + space.size()[0] + space.size()[1]);
             seen.sort_unstable();
             prop_assert_eq!(seen, (0..n).collect::<Vec<_>>());

@@ -56,6 +56,9 @@ pub fn run(args: &Compare, flags: &ArgMatches) -> anyhow::Result<u8> {
     let pool = session::pool(args.run.threads, args.run.quiet)?;
     let is_drawn = matches!(output, Some((Kind::Html, _)));
     let comparison = pool.install(|| runner.compare(&methods, is_drawn))?;
+    if comparison.columns.is_empty() && runner.cancel.is_cancelled() {
+        return Ok(interrupt::code());
+    }
     if comparison.columns.is_empty() {
         bail!("no run was done, so there is nothing to compare");
     }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, MeshQuality, MeshRegion, Report, RunContext, mesh_cells};
+use evenly::{CancelToken, MeshQuality, MeshRegion, Report, mesh_cells};
 use evenly_io::{
     MeshFormat, Target, encode_mesh, encode_polygons, read_lines, read_polygon, read_positions, read_regions, read_rows, write_together,
 };
@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::mesh_args::Mesh;
-use crate::meshed::{Given, Meshed, Names, meshed};
+use crate::meshed::{Given, Names, meshed};
 use crate::talk::say;
 use crate::unmet::Unmet;
 use crate::{input, interrupt, record, session};
@@ -49,33 +49,39 @@ pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     let names =
         Names { polygon: &args.input, fixed: args.fixed.as_ref().unwrap_or(&nameless), lines: args.lines.as_ref().unwrap_or(&nameless) };
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
-        let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
+        let mut context = session::context(&bar, &cancel, args.run.quiet);
         meshed(&polygon, names, wishes, given, &mut context)
     });
     bar.finish_and_clear();
-    let Meshed { mesh, quality, report, unmet: missed, parameters } = made?;
-    notes.extend(report.notes.iter().cloned());
+    let made = made?;
+    let mesh = &made.mesh;
+    notes.extend(made.report.notes.iter().cloned());
 
     let recipe = record::recipe(Some(wishes.seed));
-    let of_mesh = encode_mesh(&mesh, targets.format, &recipe, &targets.mesh)?;
+    let of_mesh = encode_mesh(mesh, targets.format, &recipe, &targets.mesh)?;
     match &targets.cells {
-        Some(cells) => write_together(&[(cells, &encode_polygons(&mesh_cells(&mesh), &recipe)), (&targets.mesh, &of_mesh)])?,
+        Some(cells) => write_together(&[(cells, &encode_polygons(&mesh_cells(mesh), &recipe)), (&targets.mesh, &of_mesh)])?,
         None => targets.mesh.write(&of_mesh)?,
     }
+    interrupt::ends();
+    // Who interrupts does not wait for measures.
+    let measured = (!cancel.is_cancelled()).then(|| made.measured(wishes));
+    notes.extend(measured.iter().flat_map(|measured| measured.notes.iter().cloned()));
+    let missed = measured.as_ref().map_or(&[][..], |measured| &measured.unmet);
+    let quality = measured.as_ref().map(|measured| &measured.quality);
     let seconds = begin.elapsed().as_secs_f64();
     let record = MeshRecord {
         version: record::VERSION,
         command: record::command(),
         seed: wishes.seed,
-        parameters: &parameters,
+        parameters: &made.parameters,
         polygon_area: polygon.area(),
-        uncovered_area: (polygon.area() - quality.area).abs(),
+        uncovered_area: quality.map(|quality| (polygon.area() - quality.area).abs()),
         quality,
-        run: report,
-        unmet: &missed,
+        run: made.report,
+        unmet: missed,
         notes: &notes,
         seconds,
     };
@@ -142,9 +148,9 @@ struct MeshRecord<'a> {
     seed: u64,
     parameters: &'a Value,
     polygon_area: f64,
-    /// By how much the triangles' areas differ from the polygon's.
-    uncovered_area: f64,
-    quality: MeshQuality,
+    /// By how much the triangles' areas differ from the polygon's; not measured in an interrupted run, as its quality.
+    uncovered_area: Option<f64>,
+    quality: Option<&'a MeshQuality>,
     run: Report,
     unmet: &'a [Unmet],
     notes: &'a [String],
@@ -155,8 +161,12 @@ fn summarize(name: &str, record: &MeshRecord) {
     for note in record.notes {
         say(format_args!("note: {note}"));
     }
-    let MeshQuality { n_vertices, n_triangles, min_angle_deg, max_angle_deg, mean_min_angle_deg, obtuse_triangles, .. } = record.quality;
-    let MeshQuality { radius_edge, beta, triangle_quality, min_edge, max_edge, n_border_edges, .. } = record.quality;
+    let (Some(quality), Some(uncovered_area)) = (record.quality, record.uncovered_area) else {
+        say(format_args!("{name}: seed {}, interrupted after {:.2} s; not measured", record.seed, record.seconds));
+        return;
+    };
+    let &MeshQuality { n_vertices, n_triangles, min_angle_deg, max_angle_deg, mean_min_angle_deg, obtuse_triangles, .. } = quality;
+    let &MeshQuality { radius_edge, beta, triangle_quality, min_edge, max_edge, n_border_edges, .. } = quality;
     say(format_args!(
         "{name}: {n_triangles} triangles, {n_vertices} vertices, {n_border_edges} edges on the border, seed {}, {:.2} s",
         record.seed, record.seconds
@@ -166,9 +176,9 @@ fn summarize(name: &str, record: &MeshRecord) {
     ));
     say(format_args!(
         "radius-edge ratio {radius_edge:.3}, beta {beta:.3}, quality {triangle_quality:.3}; edges {min_edge:.4e} to {max_edge:.4e} long; {:.1e} of the area missed",
-        record.uncovered_area / record.polygon_area
+        uncovered_area / record.polygon_area
     ));
-    record.quality.size_errors.iter().for_each(say);
+    quality.size_errors.iter().for_each(say);
     for unmet in record.unmet.iter().take(NAMED) {
         say(format_args!("not reached: {unmet}"));
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, CertificateBreach, MissedLengths, Outcome, Report, RunContext, SurfaceDistance, SurfaceQuality, TriangleMesh};
+use evenly::{CancelToken, CertificateBreach, MissedLengths, Outcome, Report, SurfaceDistance, SurfaceQuality, TriangleMesh};
 use evenly_io::{MeshFormat, Target, read_triangles, round_as_stl, stl_rounding, write_triangles, write_triangles_figure};
 use serde::Serialize;
 use serde_json::Value;
@@ -31,12 +31,11 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
 
     let (sizing, points) = (sizing(wishes)?, points(wishes)?);
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let mut warned: Vec<String> = Vec::new();
     let mut rounding = None;
     let made = pool.install(|| {
-        let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
+        let mut context = session::context(&bar, &cancel, args.run.quiet);
         if !args.run.quiet {
             context = context.on_warning(|warning| {
                 warned.push(warning.into());
@@ -52,27 +51,33 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
         remeshed(&surface, &args.input, wishes, sizing.as_ref(), points, round, &mut context)
     });
     bar.finish_and_clear();
-    let Made { remeshed, quality, distance, self_intersections, breaches, missed, report, parameters } = made?;
-    notes.extend(report.notes.iter().cloned());
+    let made = made?;
+    notes.extend(made.report.notes.iter().cloned());
 
     notes.extend(rounding);
     let recipe = record::recipe(Some(wishes.seed));
-    write_triangles(&with_places(&remeshed), targets.format, &recipe, &targets.mesh)?;
+    write_triangles(&with_places(&made.remeshed), targets.format, &recipe, &targets.mesh)?;
     if let Some(plot) = &targets.plot {
-        write_triangles_figure(&[("", &remeshed.mesh)], &recipe, plot)?;
+        write_triangles_figure(&[("", &made.remeshed.mesh)], &recipe, plot)?;
     }
+    interrupt::ends();
+    // Who interrupts does not wait for measures.
+    let measured = if cancel.is_cancelled() { None } else { Some(pool.install(|| made.measured(&surface))?) };
+    notes.extend(measured.iter().flat_map(|measured| measured.notes.iter().cloned()));
+    let Made { report, parameters, .. } = made;
+    let breaches = measured.as_ref().map_or(&[][..], |measured| &measured.breaches);
     let has_missed = matches!(report.outcome, Outcome::IterationLimit) || !breaches.is_empty();
     let record = RemeshRecord {
         version: record::VERSION,
         command: record::command(),
         seed: wishes.seed,
         parameters: &parameters,
-        quality,
-        distance,
-        self_intersections,
+        quality: measured.as_ref().map(|measured| measured.quality),
+        distance: measured.as_ref().map(|measured| measured.distance),
+        self_intersections: measured.as_ref().map(|measured| measured.self_intersections),
         run: report,
-        breaches: &breaches,
-        missed: &missed,
+        breaches,
+        missed: measured.as_ref().map_or(&[], |measured| &measured.missed),
         notes: &notes,
         seconds: begin.elapsed().as_secs_f64(),
     };
@@ -135,9 +140,10 @@ struct RemeshRecord<'a> {
     command: String,
     seed: u64,
     parameters: &'a Value,
-    quality: SurfaceQuality,
-    distance: SurfaceDistance,
-    self_intersections: usize,
+    /// None of an interrupted run, as what follows.
+    quality: Option<SurfaceQuality>,
+    distance: Option<SurfaceDistance>,
+    self_intersections: Option<usize>,
     run: Report,
     /// Triangles whose angles are not what the targets imply, the worst first.
     breaches: &'a [CertificateBreach],
@@ -152,9 +158,16 @@ fn summarize(name: &str, record: &RemeshRecord, warned: &[String]) {
     for note in record.notes.iter().filter(|note| !warned.contains(note)) {
         say(format_args!("note: {note}"));
     }
-    let SurfaceQuality { n_vertices, n_triangles, euler_characteristic, n_border_edges, .. } = record.quality;
-    let SurfaceQuality { min_angle_deg, max_angle_deg, mean_min_angle_deg, obtuse_triangles, .. } = record.quality;
-    let SurfaceQuality { min_quality, mean_quality, valence_567_fraction, beta, .. } = record.quality;
+    let (Some(quality), Some(distance), Some(self_intersections)) = (&record.quality, record.distance, record.self_intersections) else {
+        say(format_args!(
+            "{name}: seed {}, interrupted after {} passes, {:.2} s; not measured",
+            record.seed, record.run.iterations, record.seconds
+        ));
+        return;
+    };
+    let &SurfaceQuality { n_vertices, n_triangles, euler_characteristic, n_border_edges, .. } = quality;
+    let &SurfaceQuality { min_angle_deg, max_angle_deg, mean_min_angle_deg, obtuse_triangles, .. } = quality;
+    let &SurfaceQuality { min_quality, mean_quality, valence_567_fraction, beta, .. } = quality;
     let border = if n_border_edges > 0 { format!(", {n_border_edges} edges on the border") } else { String::new() };
     say(format_args!(
         "{name}: {n_vertices} vertices, {n_triangles} triangles, Euler characteristic {euler_characteristic}{border}, seed {}, {} passes, {:.2} s",
@@ -165,12 +178,11 @@ fn summarize(name: &str, record: &RemeshRecord, warned: &[String]) {
          quality {min_quality:.3} (mean {mean_quality:.3}), {:.2} % of valences 5 to 7, beta {beta:.3}",
         100.0 * valence_567_fraction
     ));
-    let SurfaceDistance { rms, hausdorff, max_from_reference, .. } = record.distance;
+    let SurfaceDistance { rms, hausdorff, max_from_reference, .. } = distance;
     say(format_args!(
-        "distance to the input: RMS {rms:.2e}, Hausdorff {hausdorff:.2e} of the diagonal (input to mesh {max_from_reference:.3e}), {} self-intersections",
-        record.self_intersections
+        "distance to the input: RMS {rms:.2e}, Hausdorff {hausdorff:.2e} of the diagonal (input to mesh {max_from_reference:.3e}), {self_intersections} self-intersections"
     ));
-    record.quality.size_errors.iter().for_each(say);
+    quality.size_errors.iter().for_each(say);
     for missed in record.missed {
         say(format_args!("not reached: {missed}"));
     }

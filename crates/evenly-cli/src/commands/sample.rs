@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, Outcome, Report, RunContext, TriangleMesh};
+use evenly::{CancelToken, Outcome, Report, TriangleMesh};
 use evenly_io::{CloudFormat, Target, read_triangles, write_cloud};
 use serde::Serialize;
 
@@ -37,10 +37,9 @@ pub fn run(args: &Sample) -> anyhow::Result<u8> {
     // Points need no manifold.
     let surface = surface_of(&mesh, &args.input, wishes.repair).or_else(|_| surface_of(&mesh, &args.input, true))?;
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet);
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
-        let mut context = RunContext::default().with_cancel(cancel.clone()).on_progress(|progress| session::show(&bar, progress));
+        let mut context = session::context(&bar, &cancel, args.run.quiet);
         sampled(&surface, &args.input, wishes, &mut context)
     });
     bar.finish_and_clear();

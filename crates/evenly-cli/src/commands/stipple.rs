@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Density, PointSet, Rectangle, RunContext, Space, measure, tessellate};
+use evenly::{CancelToken, Density, PointSet, Rectangle, Space, measure, tessellate};
 use evenly_io::{Drawing, Format, Layer, Marks, Photograph, Target, write_points};
 use serde::Serialize;
 
@@ -40,7 +40,6 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     let inks = Ink::of(&photograph, &tone, args.layers);
 
     let cancel = CancelToken::default();
-    interrupt::cancels(&cancel, args.run.quiet);
     let mut drawn = Vec::new();
     // Of each layer another, so that no two put their dots in the same places.
     let seeds = (0..).map(|layer| args.seed.wrapping_add(layer));
@@ -185,7 +184,7 @@ impl<'a> Drawn<'a> {
     ) -> anyhow::Result<Self> {
         let params = DotsParams { method: args.method, iterations: args.iterations, sizes: args.sizes, order: args.order };
         let bar = session::bar(args.run.quiet, 1000, "{msg} [{bar:30}] {eta} left");
-        let mut run = RunContext::default().on_progress(|progress| session::show(&bar, progress)).with_cancel(cancel.clone());
+        let mut run = session::context(&bar, cancel, args.run.quiet);
         let made = dots(&params, space, ink, tones, n_points, seed, (&mut run, &|| cancel.is_cancelled()))?;
         bar.finish_and_clear();
         let Dots { points, areas, widest_px } = made;

@@ -44,8 +44,8 @@ pub fn dots(
     let points = spread(space, &tones.density, n_points, params.method, optimizer.as_deref(), seed, run)?;
     let points = match params.order {
         // An order that takes long is left out where nobody wants to wait; a pen cannot do without its tour.
-        DrawOrder::Progressive if is_cancelled() => ordered(&points, &tour(&points))?,
-        DrawOrder::Tour => ordered(&points, &tour(&points))?,
+        DrawOrder::Progressive if is_cancelled() => ordered(&points, &tour(&points, run))?,
+        DrawOrder::Tour => ordered(&points, &tour(&points, run))?,
         DrawOrder::Progressive => eliminate(&points, points.n_points())?,
         DrawOrder::Input => points,
     };
