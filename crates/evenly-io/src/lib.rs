@@ -14,6 +14,7 @@ mod meshes;
 mod message;
 mod npy;
 mod output;
+mod pdf;
 mod photograph;
 mod pixels;
 mod render;

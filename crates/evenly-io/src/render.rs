@@ -1,17 +1,14 @@
-//! Pictures in pixels, by crate `resvg`, and pages, by crate `krilla`, from our own SVG.
+//! Pictures in pixels, by crate `resvg`, and pages of PDF, from our own SVG.
 
 use std::sync::Arc;
 
-use krilla::geom::Size;
-use krilla::metadata::Metadata;
-use krilla::page::PageSettings;
-use krilla_svg::{SurfaceExt as _, SvgSettings};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::fontdb::{Database, Source};
 use resvg::usvg::{Options, Tree};
 
 use crate::Error;
 use crate::figure::FONT;
+use crate::pdf;
 use crate::pixels::encode;
 
 /// The only font there is, so that a figure looks the same everywhere.
@@ -51,28 +48,14 @@ fn scaled_png(svg: &str, scale: f32, recipe: &str) -> Result<Vec<u8>, String> {
     encode(pixmap.data(), pixmap.width(), pixmap.height(), png::ColorType::Rgba, recipe).map_err(|e| e.to_string())
 }
 
-/// Renders an SVG as a page of PDF, a point to a unit, with text as text; the recipe becomes its description.
+/// Renders an SVG as a page of PDF, a point to a unit; the recipe becomes its subject.
 pub(crate) fn pdf(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {
-    scaled_pdf(svg, 1.0, recipe)
+    pdf::document(&tree(svg)?, 1.0, recipe)
 }
 
 /// Renders an SVG in millimetres as a page of PDF of the same size.
 pub(crate) fn pdf_of_page(svg: &str, recipe: &str) -> Result<Vec<u8>, String> {
-    scaled_pdf(svg, (POINTS_PER_INCH / UNITS_PER_INCH) as f32, recipe)
-}
-
-fn scaled_pdf(svg: &str, scale: f32, recipe: &str) -> Result<Vec<u8>, String> {
-    let tree = tree(svg)?;
-    let (width, height) = (scale * tree.size().width(), scale * tree.size().height());
-    let (size, settings) = Size::from_wh(width, height).zip(PageSettings::from_wh(width, height)).ok_or("the picture has no size")?;
-    let mut document = krilla::Document::new();
-    document.set_metadata(Metadata::new().creator("evenly".into()).description(recipe.into()));
-    let mut page = document.start_page_with(settings);
-    let mut surface = page.surface();
-    surface.draw_svg(&tree, size, SvgSettings::default()).ok_or("the picture cannot be drawn")?;
-    surface.finish();
-    page.finish();
-    document.finish().map_err(|e| format!("{e:?}"))
+    pdf::document(&tree(svg)?, (POINTS_PER_INCH / UNITS_PER_INCH) as f32, recipe)
 }
 
 fn tree(svg: &str) -> Result<Tree, String> {

@@ -1,18 +1,15 @@
-//! glTF, by crate `gltf`: positions and triangles of all meshes in the scene, where their nodes put them. Looks, bones and motion are skipped.
+//! glTF: positions and triangles of all meshes in the scene, where their nodes put them. Looks, bones and motion are skipped.
 
+mod binary;
 mod buffers;
+mod document;
 mod place;
 
 use std::path::Path;
 
-use gltf::json::accessor::Type;
-use gltf::json::mesh::{Mode, Primitive, Semantic};
-use gltf::json::scene::Node;
-use gltf::json::validation::Checked;
-use gltf::json::{Index, Root};
-use serde_json::Value;
-
-use self::buffers::Buffers;
+use self::binary::split;
+use self::buffers::{Buffers, Things};
+use self::document::{Document, Node, Primitive};
 use self::place::Place;
 use super::TrianglesRead;
 use super::building::Building;
@@ -20,30 +17,25 @@ use super::lines::shown;
 use crate::Error;
 use crate::memory::{bytes_told, memory_limit};
 
-/// The bytes before the parts of a binary file.
-const HEAD: usize = 12;
 /// Extensions that hide positions where a plain reader cannot find them.
 const HIDING: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
 
 /// Extensions that are read.
-const KNOWN: [&str; 2] = ["KHR_mesh_quantization", INSTANCING];
+const KNOWN: [&str; 2] = ["KHR_mesh_quantization", "EXT_mesh_gpu_instancing"];
 /// How extensions begin that change looks alone.
 const LOOKS: [&str; 6] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "MSFT_texture_"];
 /// A surface with a vertex takes about so much memory for it.
 const BYTES_A_VERTEX: u64 = 500;
-/// The extension by which a node puts its mesh in many places.
-const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 pub(super) fn read(name: &str, bytes: &[u8], folder: &Path) -> Result<TrianglesRead, Error> {
     let problem = |problem: String| Error::content(name, problem);
     let (json, blob) = split(bytes).map_err(problem)?;
-    let document: Value = serde_json::from_slice(&json).map_err(|e| problem(format!("this is no glTF: {e}")))?;
-    let version = document["asset"]["version"].as_str().unwrap_or("1.0");
+    let document: Document = serde_json::from_slice(json).map_err(|e| problem(format!("this is no glTF: {e}")))?;
+    let version = document.asset.version.as_deref().unwrap_or("1.0");
     if !version.starts_with("2.") {
         return Err(problem(format!("this is glTF {}; 2.0 alone is read", shown(version.as_bytes()))));
     }
-    let root = Root::from_slice(&json).map_err(|e| problem(format!("this is no glTF: {e}")))?;
-    for extension in &root.extensions_required {
+    for extension in &document.extensions_required {
         if HIDING.contains(&extension.as_str()) {
             return Err(problem(format!("its triangles are compressed by {extension}; export it without compression")));
         }
@@ -51,8 +43,8 @@ pub(super) fn read(name: &str, bytes: &[u8], folder: &Path) -> Result<TrianglesR
             return Err(problem(format!("it needs the extension {}, which is not read", shown(extension.as_bytes()))));
         }
     }
-    let buffers = Buffers::new(&root, blob, folder);
-    let mut walk = Walk { root: &root, document: &document, buffers, building: Building::default(), n_seen: 0, n_skipped: 0 };
+    let buffers = Buffers::new(&document, blob, folder);
+    let mut walk = Walk { document: &document, buffers, building: Building::default(), n_seen: 0, n_skipped: 0 };
     walk.scene().map_err(problem)?;
     let Walk { mut building, n_skipped, .. } = walk;
     if n_skipped > 0 {
@@ -62,25 +54,9 @@ pub(super) fn read(name: &str, bytes: &[u8], folder: &Path) -> Result<TrianglesR
     building.finish(name, |face| format!("{name}, triangle {face}"))
 }
 
-/// The document, and the bytes that a binary file has after it.
-fn split(bytes: &[u8]) -> Result<(Vec<u8>, Option<Vec<u8>>), String> {
-    if !bytes.starts_with(b"glTF") {
-        return Ok((bytes.to_vec(), None));
-    }
-    // The crate would subtract the head from a length that is less.
-    let length = bytes.get(8..HEAD).and_then(<[u8]>::first_chunk).map_or(0, |&length| u32::from_le_bytes(length) as usize);
-    if length < HEAD {
-        return Err("this is no binary glTF: its head is cut short".into());
-    }
-    let parts = gltf::Glb::from_slice(bytes).map_err(|e| format!("this is no binary glTF: {e}"))?;
-    Ok((parts.json.into_owned(), parts.bin.map(|blob| blob.into_owned())))
-}
-
 /// The way through a scene.
 struct Walk<'a> {
-    root: &'a Root,
-    /// The same with what `root` does not know.
-    document: &'a Value,
+    document: &'a Document,
     buffers: Buffers<'a>,
     building: Building,
     n_seen: usize,
@@ -90,39 +66,36 @@ struct Walk<'a> {
 impl Walk<'_> {
     /// All nodes of the scene; without a scene, all meshes.
     fn scene(&mut self) -> Result<(), String> {
-        let root = self.root;
-        let Some(scene) = root.scene.and_then(|scene| root.get(scene)).or(root.scenes.first()) else {
-            return (0..root.meshes.len()).try_for_each(|mesh| self.mesh(mesh, &Place::default()));
+        let document = self.document;
+        let Some(scene) = document.scene.and_then(|scene| document.scenes.get(scene)).or(document.scenes.first()) else {
+            return (0..document.meshes.len()).try_for_each(|mesh| self.mesh(mesh, &Place::default()));
         };
         // By a stack of our own, however deep nodes lie.
-        let mut waiting: Vec<(Index<Node>, Place)> = scene.nodes.iter().rev().map(|&node| (node, Place::default())).collect();
+        let mut waiting: Vec<(usize, Place)> = scene.nodes.iter().rev().map(|&node| (node, Place::default())).collect();
         while let Some((index, outer)) = waiting.pop() {
             self.n_seen += 1;
-            if self.n_seen > root.nodes.len() {
+            if self.n_seen > document.nodes.len() {
                 return Err("its nodes are no tree: one has two parents, or is its own".into());
             }
-            let node = root.get(index).ok_or_else(|| format!("there is no node {}", index.value()))?;
+            let node = document.nodes.get(index).ok_or_else(|| format!("there is no node {index}"))?;
             let place = outer.of(node);
             if let Some(mesh) = node.mesh {
-                for instance in self.instances(index.value()).map_err(|problem| format!("node {}: {problem}", index.value()))? {
-                    self.mesh(mesh.value(), &place.around(&instance))?;
+                for instance in self.instances(node).map_err(|problem| format!("node {index}: {problem}"))? {
+                    self.mesh(mesh, &place.around(&instance))?;
                 }
             }
-            waiting.extend(node.children.iter().flatten().rev().map(|&child| (child, place)));
+            waiting.extend(node.children.iter().rev().map(|&child| (child, place)));
         }
         Ok(())
     }
 
     /// Where a node puts its mesh, within its own place.
-    fn instances(&self, node: usize) -> Result<Vec<Place>, String> {
-        let attributes = &self.document["nodes"][node]["extensions"][INSTANCING]["attributes"];
-        let column = |name: &str, kind: Type| {
-            let index = attributes[name].as_u64().map(|index| usize::try_from(index).unwrap_or(usize::MAX));
-            index.map(|index| self.buffers.numbers(index, kind)).transpose()
-        };
-        let shifts = column("TRANSLATION", Type::Vec3)?;
-        let turns = column("ROTATION", Type::Vec4)?;
-        let scales = column("SCALE", Type::Vec3)?;
+    fn instances(&self, node: &Node) -> Result<Vec<Place>, String> {
+        let attributes = &node.extensions.instancing.attributes;
+        let column = |name: &str, things: Things| attributes.get(name).map(|&index| self.buffers.numbers(index, things)).transpose();
+        let shifts = column("TRANSLATION", Things::Vec3)?;
+        let turns = column("ROTATION", Things::Vec4)?;
+        let scales = column("SCALE", Things::Vec3)?;
         let numbers = [(&shifts, 3), (&turns, 4), (&scales, 3)].map(|(column, n)| column.as_ref().map(|column| column.len() / n));
         let Some(n) = numbers.into_iter().flatten().next() else { return Ok(vec![Place::default()]) };
         if numbers.into_iter().flatten().any(|other| other != n) {
@@ -138,7 +111,7 @@ impl Walk<'_> {
     }
 
     fn mesh(&mut self, index: usize, place: &Place) -> Result<(), String> {
-        let mesh = self.root.meshes.get(index).ok_or_else(|| format!("there is no mesh {index}"))?;
+        let mesh = self.document.meshes.get(index).ok_or_else(|| format!("there is no mesh {index}"))?;
         for (k, primitive) in mesh.primitives.iter().enumerate() {
             self.primitive(primitive, place).map_err(|problem| format!("mesh {index}, part {k}: {problem}"))?;
         }
@@ -146,13 +119,16 @@ impl Walk<'_> {
     }
 
     fn primitive(&mut self, primitive: &Primitive, place: &Place) -> Result<(), String> {
-        let Checked::Valid(mode) = primitive.mode else { return Err("its mode is unknown".into()) };
-        if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-            self.n_skipped += 1;
-            return Ok(());
+        match primitive.mode {
+            Primitive::TRIANGLES..=Primitive::FAN => {}
+            0..Primitive::TRIANGLES => {
+                self.n_skipped += 1;
+                return Ok(());
+            }
+            _ => return Err("its mode is unknown".into()),
         }
-        let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions)).ok_or("it has no POSITION")?;
-        let positions = self.buffers.numbers(positions.value(), Type::Vec3)?;
+        let positions = primitive.attributes.get("POSITION").ok_or("it has no POSITION")?;
+        let positions = self.buffers.numbers(*positions, Things::Vec3)?;
         let first = self.building.mesh.vertices.len();
         let n = positions.len() / 3;
         require_few(first + n)?;
@@ -164,13 +140,13 @@ impl Walk<'_> {
             self.building.mesh.vertices.push(position);
         }
         let corners: Vec<usize> = match primitive.indices {
-            Some(indices) => self.buffers.numbers(indices.value(), Type::Scalar)?.into_iter().map(|v| v as usize).collect(),
+            Some(indices) => self.buffers.numbers(indices, Things::Scalar)?.into_iter().map(|v| v as usize).collect(),
             None => (0..n).collect(),
         };
         if let Some(v) = corners.iter().find(|&&v| v >= n) {
             return Err(format!("a triangle has vertex {v} (counted from 0), but there are only {n}"));
         }
-        for [a, b, c] in triangles(mode, &corners) {
+        for [a, b, c] in triangles(primitive.mode, &corners) {
             // What mirrors a mesh turns it inside out.
             let t = if place.is_mirrored() { [a, c, b] } else { [a, b, c] };
             let number = self.building.mesh.triangles.len() + 1;
@@ -191,14 +167,14 @@ fn require_few(n_vertices: usize) -> Result<(), String> {
 }
 
 /// The triangles of a list, a strip or a fan; those of a strip without area only join its parts.
-fn triangles(mode: Mode, corners: &[usize]) -> Vec<[usize; 3]> {
+fn triangles(mode: u32, corners: &[usize]) -> Vec<[usize; 3]> {
     match mode {
-        Mode::TriangleStrip => {
+        Primitive::STRIP => {
             let turned = corners.windows(3).enumerate();
             let all = turned.map(|(k, t)| if k % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] });
             all.filter(|[a, b, c]| a != b && b != c && c != a).collect()
         }
-        Mode::TriangleFan => corners.get(1..).unwrap_or_default().windows(2).map(|pair| [corners[0], pair[0], pair[1]]).collect(),
+        Primitive::FAN => corners.get(1..).unwrap_or_default().windows(2).map(|pair| [corners[0], pair[0], pair[1]]).collect(),
         _ => corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect(),
     }
 }

@@ -164,12 +164,13 @@ fn gltf_reads_buffers_beside_it_and_in_binary() {
     let expected = parse_text(Kind::Gltf, &text);
     assert_eq!(read_triangles(&path).unwrap(), expected);
     let json = format!("{before}\"{after}").replace(r#","uri":"""#, "");
-    let glb = ::gltf::Glb {
-        header: ::gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 },
-        json: json.as_bytes().into(),
-        bin: Some(bytes.into()),
+    let chunk = |kind: &[u8; 4], bytes: &[u8], filler: u8| {
+        let mut padded = bytes.to_vec();
+        padded.resize(bytes.len().next_multiple_of(4), filler);
+        [&(padded.len() as u32).to_le_bytes(), &kind[..], &padded].concat()
     };
-    let whole = glb.to_vec().unwrap();
+    let chunks = [chunk(b"JSON", json.as_bytes(), b' '), chunk(b"BIN\0", &bytes, 0)].concat();
+    let whole = [&b"glTF\x02\0\0\0"[..], &(chunks.len() as u32 + 12).to_le_bytes(), &chunks].concat();
     std::fs::write(&path, &whole).unwrap();
     assert_eq!(read_triangles(&path).unwrap(), expected);
     for length in 0..whole.len() {

@@ -1,6 +1,6 @@
 //! Where a node of glTF puts things.
 
-use gltf::json::scene::Node;
+use super::document::Node;
 
 /// An affine map: three columns, and what is added.
 #[derive(Clone, Copy)]
@@ -54,10 +54,9 @@ impl Place {
 
 /// A matrix; or a scale, then a rotation, then a shift.
 fn own(node: &Node) -> Place {
-    if let Some(matrix) = node.matrix {
-        let m = matrix.map(f64::from);
+    if let Some(m) = node.matrix {
         return Place { columns: [[m[0], m[1], m[2]], [m[4], m[5], m[6]], [m[8], m[9], m[10]]], shift: [m[12], m[13], m[14]] };
     }
-    let turn = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.0.map(f64::from));
-    Place::new(node.scale.unwrap_or([1.0; 3]).map(f64::from), turn, node.translation.unwrap_or_default().map(f64::from))
+    let turn = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+    Place::new(node.scale.unwrap_or([1.0; 3]), turn, node.translation.unwrap_or_default())
 }
