@@ -6,13 +6,13 @@
 #![allow(clippy::unwrap_used)]
 
 mod comparators;
-#[path = "../tests/densities.rs"]
+#[path = "../tests/shared/densities.rs"]
 mod densities;
 mod density;
 mod mesh;
-#[path = "../tests/shapes.rs"]
+#[path = "../tests/shared/shapes.rs"]
 mod shapes;
-#[path = "../tests/solids/mod.rs"]
+#[path = "../tests/shared/solids.rs"]
 mod solids;
 mod surfaces;
 

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use evenly::{RemeshParams, RunContext, Surface, SurfaceSizing, TriangleMesh, remesh, surface_sizes};
 use evenly_io::{compared_svg, make_folder, rendered};
 
-#[path = "../tests/solids/mod.rs"]
+#[path = "../tests/shared/solids.rs"]
 mod solids;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

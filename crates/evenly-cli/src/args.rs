@@ -81,7 +81,7 @@ pub struct Generate {
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_points: Option<usize>,
     /// How they are made: by an optimiser, or as one of its starts
-    #[arg(long, default_value = "procrustes", value_parser = parser(|method| method != Method::Warp))]
+    #[arg(short, long, default_value = "procrustes", value_parser = parser(|method| method != Method::Warp))]
     pub method: Method,
     /// What an optimiser starts from [default: white; opt-beta: poisson-disk]
     ///
@@ -113,7 +113,7 @@ pub struct Optimize {
     /// Points as .txt, .csv, .npy or .geojson; - is stdin
     pub input: PathBuf,
     /// How they are improved
-    #[arg(long, default_value = "procrustes", value_parser = parser(|method| method.is_optimizer() || method == Method::Warp))]
+    #[arg(short, long, default_value = "procrustes", value_parser = parser(|method| method.is_optimizer() || method == Method::Warp))]
     pub method: Method,
     /// The same seed gives the same points; procrustes, opt-beta, cvt and farthest-point use none
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]

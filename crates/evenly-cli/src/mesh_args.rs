@@ -77,7 +77,7 @@ pub struct MeshWishes {
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     /// How points find their places: on the border they move along it
-    #[arg(long, value_enum, default_value_t = Rule::PushPull, help_heading = "Method")]
+    #[arg(short, long, value_enum, default_value_t = Rule::PushPull, help_heading = "Method")]
     pub method: Rule,
     /// Passes of methods other than push-pull [default: lloyd 100, the others 200]
     #[arg(long, value_name = "N", value_parser = parse_count, help_heading = "Method")]

@@ -61,7 +61,7 @@ pub struct RemeshWishes {
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     /// How vertices find their places
-    #[arg(long, value_enum, default_value_t = RemeshRule::PushPull, help_heading = "Method")]
+    #[arg(short, long, value_enum, default_value_t = RemeshRule::PushPull, help_heading = "Method")]
     pub method: RemeshRule,
     /// Targets of push-pull [default: 0.90, 0.63, tolerance 0.1: no obtuse triangle]
     #[arg(long, value_enum, help_heading = "Method")]
@@ -181,7 +181,7 @@ pub struct SampleWishes {
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
     /// How they are spread
-    #[arg(long, value_enum, default_value_t = SampleRule::PushPull)]
+    #[arg(short, long, value_enum, default_value_t = SampleRule::PushPull)]
     pub method: SampleRule,
     /// The same seed gives the same points
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]

@@ -257,9 +257,9 @@ impl SpaceArgs {
 }
 
 fn parse_pair(text: &str) -> Result<[f64; 2], String> {
-    let numbers: Vec<f64> = text.split(',').map_while(|number| number.trim().parse().ok()).collect();
-    match numbers[..] {
-        [a, b] if text.split(',').count() == 2 => Ok([a, b]),
-        _ => Err("it must be two numbers with a comma between them".into()),
+    let parts: Vec<Option<f64>> = text.split([',', 'x']).map(|number| number.trim().parse().ok()).collect();
+    match parts[..] {
+        [Some(a), Some(b)] => Ok([a, b]),
+        _ => Err("it must be two numbers, such as 640,480 or 640x480".into()),
     }
 }

@@ -27,7 +27,7 @@ pub struct Stipple {
     #[arg(long, value_parser = parse_format)]
     pub format: Option<Format>,
     /// How dots are spread; poisson-disk, eliminate and white are no optimisers
-    #[arg(long, default_value = "push-pull", value_parser = parser(|method| method.knows_density() && method != Method::Warp))]
+    #[arg(short, long, default_value = "push-pull", value_parser = parser(|method| method.knows_density() && method != Method::Warp))]
     pub method: Method,
     /// Passes of an optimiser [default: push-pull, well-spaced and capacity: 60, others by the method]
     #[arg(short, long, value_name = "I", allow_negative_numbers = true)]

@@ -1,7 +1,5 @@
 //! Numbers: what the paper prints, and what evenly promises to reach. Speed is for the benches.
 
-#![allow(clippy::unwrap_used)]
-
 use evenly::{
     Measures, Mode, Outcome, ProcrustesParams, PushPullParams, PushPullPreset, Rectangle, Report, RunContext, Schedule, Space, Targets,
     Torus, WellSpacedParams, jittered, measure, procrustes, push_pull, warp, warp_isotropic, well_spaced, white,

@@ -1,8 +1,6 @@
 //! The command line's proofs: analyze, compare, zoneplate, bilateral, reproduce.
 
-#![allow(clippy::unwrap_used)]
-
-mod shell;
+use crate::shell;
 
 use std::fs;
 

@@ -1,7 +1,5 @@
 //! All optimisers, quick ones, for tests.
 
-#![allow(clippy::unwrap_used)]
-
 use evenly::{
     CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, OptBetaParams, PointSet, ProcrustesParams, PushPullParams,
     PushPullPreset, Report, RunContext, WellSpacedParams, capacity, cvt, distmesh, farthest_point, lloyd, opt_beta, procrustes, push_pull,

@@ -1,9 +1,7 @@
 //! The command line with polygons: `evenly mesh`.
 
-#![allow(clippy::unwrap_used)]
-
-mod shapes;
-mod shell;
+use crate::shapes;
+use crate::shell;
 
 use std::fmt::Write as _;
 

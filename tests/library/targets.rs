@@ -1,8 +1,6 @@
 //! What methods with targets promise: what counts as reached is, and what is not is told and approached.
 
-#![allow(clippy::unwrap_used)]
-
-mod spaces;
+use crate::spaces;
 
 use evenly::{
     Outcome, PushPullParams, PushPullPreset, RunContext, Targets, WellSpacedParams, angle_bounds_deg, hexagonal, jittered, measure,

@@ -1,9 +1,7 @@
 //! Points in polygons: laws that hold for every method, whatever the border.
 
-#![allow(clippy::unwrap_used)]
-
-mod methods;
-mod shapes;
+use crate::methods;
+use crate::shapes;
 
 use evenly::{
     DartParams, Density, Measures, Outcome, PointSet, PoissonDiskParams, Polygon, PushPullParams, PushPullPreset, Rectangle, RunContext,

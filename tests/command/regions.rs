@@ -1,8 +1,6 @@
 //! Points in polygons and points that stay, as a user of the command line meets them.
 
-#![allow(clippy::unwrap_used)]
-
-mod shell;
+use crate::shell;
 
 use shell::{Shell, json};
 

@@ -1,9 +1,7 @@
 //! The command line with surfaces: `evenly remesh`, `evenly sample`, `evenly analyze` of a mesh.
 
-#![allow(clippy::unwrap_used)]
-
-mod shell;
-mod solids;
+use crate::shell;
+use crate::solids;
 
 use std::fmt::Write as _;
 

@@ -1,8 +1,6 @@
 //! Laws that hold for every method, in every space: one table of cases.
 
-#![allow(clippy::unwrap_used)]
-
-mod spaces;
+use crate::spaces;
 
 use evenly::{
     CancelToken, CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Measures, Mode, OptBetaParams, Outcome,

@@ -1,8 +1,6 @@
 //! The command line as a user meets it: what it writes, what it says, and how it ends.
 
-#![allow(clippy::unwrap_used)]
-
-mod shell;
+use crate::shell;
 
 use std::fs;
 use std::io::Write as _;
@@ -70,6 +68,16 @@ fn optimising_improves_points_where_they_are() {
     assert!(angle("in.csv") > 20.0 && angle("out.csv") < 12.0);
     shell.ok(&format!("optimize in.csv --method warp {place} -o warped.csv"));
     assert!(angle("warped.csv") < angle("in.csv"));
+}
+
+#[test]
+fn methods_and_sizes_have_short_forms() {
+    let shell = Shell::new();
+    shell.ok("generate -n 60 --method push-pull --space rect --size 640,480 -o long.csv");
+    shell.ok("generate -n 60 -m push-pull --space rect --size 640x480 -o short.csv");
+    let points = |name: &str| shell.read(name).lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(points("short.csv"), points("long.csv"));
+    assert!(shell.refused("generate -n 60 --size 640 -o a.csv").contains("such as 640,480 or 640x480"));
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! What shapes enclose together: laws against an area that is counted cell by cell, and drawings and
 //! maps as people have them.
 
-#![allow(clippy::unwrap_used)]
-
 use evenly::{FillRule, Polygon, Shape};
 use proptest::prelude::*;
 

@@ -1,8 +1,6 @@
 //! The command line with pictures: `--density`, and `stipple`.
 
-#![allow(clippy::unwrap_used)]
-
-mod shell;
+use crate::shell;
 
 use evenly::Image;
 use evenly_io::{Target, write_image};

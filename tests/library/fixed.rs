@@ -1,9 +1,7 @@
 //! Points that stay where they are, whatever method runs.
 
-#![allow(clippy::unwrap_used)]
-
-mod methods;
-mod shapes;
+use crate::methods;
+use crate::shapes;
 
 use evenly::{
     Outcome, PointSet, PoissonDiskParams, Polygon, PushPullParams, Rectangle, RunContext, Space, Torus, eliminate, measure,

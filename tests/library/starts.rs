@@ -1,8 +1,6 @@
 //! What the methods promise that make points from nothing.
 
-#![allow(clippy::unwrap_used)]
-
-mod spaces;
+use crate::spaces;
 
 use evenly::{
     DartParams, PointSet, PoissonDiskParams, Rectangle, Space, Torus, dart, eliminate, measure, poisson_disk, poisson_disk_of, white,

@@ -1,8 +1,6 @@
 //! Meshes of polygons: they cover them, conform to them, and are as good as promised.
 
-#![allow(clippy::unwrap_used)]
-
-mod shapes;
+use crate::shapes;
 
 use std::collections::HashMap;
 

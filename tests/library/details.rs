@@ -1,8 +1,6 @@
 //! Meshes of polygons with details far below the spacing: no thin triangles but in sharp corners, and no
 //! more triangles than details need.
 
-#![allow(clippy::unwrap_used)]
-
 use std::collections::HashSet;
 
 use evenly::{EdgeKind, Mesh, MeshParams, Polygon, RunContext, mesh, mesh_quality};

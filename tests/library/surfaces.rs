@@ -1,8 +1,6 @@
 //! Laws of surfaces: what is kept, what is certified, what is refused.
 
-#![allow(clippy::unwrap_used)]
-
-mod solids;
+use crate::solids;
 
 use std::collections::HashSet;
 

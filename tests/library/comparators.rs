@@ -1,8 +1,6 @@
 //! What the methods promise that others are compared with.
 
-#![allow(clippy::unwrap_used)]
-
-mod spaces;
+use crate::spaces;
 
 use evenly::{
     CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, OptBetaParams, Outcome, PointSet, RunContext,

@@ -1,8 +1,6 @@
 //! Points where they are wanted: every method that knows a density, on pictures that are hard in different ways.
 
-#![allow(clippy::unwrap_used)]
-
-mod densities;
+use crate::densities;
 
 use std::f64::consts::TAU;
 
