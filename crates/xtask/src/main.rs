@@ -1,8 +1,9 @@
-//! The project's own chores: `cargo xtask test | python | bench | gallery`.
+//! The project's own chores: `cargo xtask test | python | bench | gallery | reproduce`.
 
 mod python;
 
 use std::ffi::OsStr;
+use std::path::Path;
 use std::process::{Command, ExitCode};
 
 const USAGE: &str = "\
@@ -11,7 +12,11 @@ usage: cargo xtask CHORE
   python         the Python package's tests alone: in an environment of its own, target/python
   bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh | surfaces]
                  the table of speed and quality, measured on this machine
-  gallery        draws the pictures of the README, and the pages of docs/, anew: some five minutes";
+  gallery        draws the pictures of README and manual anew, in docs/gallery
+  reproduce      computes anew what the papers show, as pages in target/reproduction: some five minutes; their figures go to docs/reproduction";
+
+/// Runs the command line.
+const EVENLY: [&str; 5] = ["run", "--release", "--package", "evenly-cli", "--"];
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -21,6 +26,7 @@ fn main() -> ExitCode {
         ["python"] => python::test(),
         ["bench", ref wanted @ ..] => cargo(&[&["bench", "--package", "evenly", "--bench", "table", "--"], wanted].concat()),
         ["gallery"] => gallery(),
+        ["reproduce"] => reproduce(),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);
@@ -29,13 +35,13 @@ fn main() -> ExitCode {
     if is_done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// The pictures that the README shows, and the papers reproduced.
+/// The pictures that README and manual show.
 fn gallery() -> bool {
-    let pictures: [&[&str]; 13] = [
-        &["generate", "-n", "10000", "-o", "gallery/points.png"],
-        &["generate", "-n", "10000", "--draw", "valence", "-o", "gallery/valence.png"],
-        &["generate", "-n", "600", "--space", "rect", "--size", "3,2", "--draw", "delaunay,points", "-o", "gallery/rectangle.png"],
-        &["generate", "-n", "4096", "--method", "push-pull", "--draw", "report", "-o", "gallery/report.svg"],
+    let pictures: [&[&str]; 10] = [
+        &["generate", "-n", "10000", "-o", "docs/gallery/points.png"],
+        &["generate", "-n", "10000", "--draw", "valence", "-o", "docs/gallery/valence.png"],
+        &["generate", "-n", "600", "--space", "rect", "--size", "3,2", "--draw", "delaunay,points", "-o", "docs/gallery/rectangle.png"],
+        &["generate", "-n", "4096", "--method", "push-pull", "--draw", "report", "-o", "docs/gallery/report.svg"],
         &[
             "stipple",
             "target/scenes/balls.png",
@@ -48,9 +54,20 @@ fn gallery() -> bool {
             "--margin",
             "4mm",
             "-o",
-            "gallery/balls.png",
+            "docs/gallery/balls.png",
         ],
-        &["stipple", "target/scenes/mountains.png", "-n", "40000", "--page", "270x150mm", "--margin", "4mm", "-o", "gallery/mountains.png"],
+        &[
+            "stipple",
+            "target/scenes/mountains.png",
+            "-n",
+            "40000",
+            "--page",
+            "270x150mm",
+            "--margin",
+            "4mm",
+            "-o",
+            "docs/gallery/mountains.png",
+        ],
         &[
             "stipple",
             "target/scenes/torus.png",
@@ -63,7 +80,7 @@ fn gallery() -> bool {
             "--margin",
             "4mm",
             "-o",
-            "gallery/torus.png",
+            "docs/gallery/torus.png",
         ],
         &[
             "generate",
@@ -76,22 +93,29 @@ fn gallery() -> bool {
             "--draw",
             "voronoi,points",
             "-o",
-            "gallery/polygon.png",
+            "docs/gallery/polygon.png",
         ],
-        &["mesh", "target/polygons/coast.txt", "-n", "6000", "--grade", "0.2", "-o", "gallery/coast.png"],
-        &["mesh", "target/polygons/plate.txt", "--spacing", "0.04", "--no-obtuse", "-o", "gallery/plate.png"],
-        &["reproduce", "procrustes", "-o", "docs"],
-        &["reproduce", "push-pull", "-o", "docs"],
-        &["reproduce", "opt-beta", "-o", "docs"],
+        &["mesh", "target/polygons/coast.txt", "-n", "6000", "--grade", "0.2", "-o", "docs/gallery/coast.png"],
+        &["mesh", "target/polygons/plate.txt", "--spacing", "0.04", "--no-obtuse", "-o", "docs/gallery/plate.png"],
     ];
-    let evenly = ["run", "--release", "--package", "evenly-cli", "--"];
     let example = |name: &str, path: &str| cargo(&["run", "--release", "--package", "evenly-io", "--example", name, path]);
     let is_drawn = example("03_scenes", "target/scenes")
         && example("04_polygons", "target/polygons")
-        && pictures.iter().all(|picture| cargo(&[&evenly, *picture, &["--force"]].concat()));
+        && pictures.iter().all(|picture| cargo(&[&EVENLY, *picture, &["--force"]].concat()));
     let mut examples =
-        [("01_energy", "gallery/energy.svg"), ("02_methods", "gallery/methods.svg"), ("05_surfaces", "gallery/surfaces")].into_iter();
+        [("01_energy", "docs/gallery/energy.svg"), ("02_methods", "docs/gallery/methods.svg"), ("05_surfaces", "docs/gallery/surfaces")]
+            .into_iter();
     is_drawn && examples.all(|(name, path)| example(name, path))
+}
+
+/// The papers reproduced: pages in the target folder, their figures among the documentation.
+fn reproduce() -> bool {
+    let pages = Path::new("target/reproduction");
+    ["procrustes", "push-pull", "opt-beta"].into_iter().all(|paper| {
+        let figures = format!("{paper}.json");
+        cargo(&[&EVENLY, &["reproduce", paper, "-o", "target/reproduction", "--force"][..]].concat())
+            && std::fs::copy(pages.join(&figures), Path::new("docs/reproduction").join(&figures)).is_ok()
+    })
 }
 
 fn cargo(args: &[&str]) -> bool {
