@@ -4,7 +4,8 @@ use std::path::Path;
 
 use anyhow::bail;
 use evenly::{
-    Density, Error, Mesh, MeshParams, MeshQuality, MeshRegion, Outcome, Polygon, Report, RunContext, expected_triangles, mesh, mesh_quality,
+    Density, Error, Mesh, MeshParams, MeshQuality, MeshRegion, Outcome, Polygon, Report, RunContext, expected_triangles, mesh,
+    mesh_quality, triangle_count, triangle_side,
 };
 use serde_json::Value;
 
@@ -106,8 +107,7 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
     if wishes.no_obtuse && wishes.method != Rule::PushPull {
         bail!("--no-obtuse needs --method push-pull");
     }
-    // A triangle with sides h has the area sqrt(3) / 4 h^2.
-    let of_triangles = |n: usize| (4.0 * polygon.area() / (3f64.sqrt() * n as f64)).sqrt();
+    let of_triangles = |n: usize| triangle_side(polygon.area(), n as f64);
     let mut spacing = wishes.spacing.unwrap_or_else(|| of_triangles(wishes.n_triangles.unwrap_or(1)));
     let n_repairs = polygon.repairs().len();
     let corners = |polygon: &Polygon| polygon.rings().iter().map(Vec::len).sum::<usize>();
@@ -163,7 +163,7 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
     let (mesh, mut report) = mesh(polygon, &params, run).map_err(told)?;
     report.notes.splice(0..0, notes);
     if wishes.grade.is_none() && params.wanted.is_none() && report.outcome != Outcome::Cancelled {
-        let wanted = wishes.n_triangles.map_or_else(|| 4.0 * polygon.area() / (3f64.sqrt() * spacing * spacing), |n| n as f64);
+        let wanted = wishes.n_triangles.map_or_else(|| triangle_count(polygon.area(), spacing), |n| n as f64);
         report.notes.extend(details::told(polygon, &params, mesh.triangles.len() - mesh.n_in_corners, wanted));
     }
     Ok(Meshed { parameters: serde_json::json!(params), mesh, report })

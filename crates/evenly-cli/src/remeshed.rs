@@ -7,8 +7,8 @@ use anyhow::{Context as _, bail};
 use evenly::{
     Attribute, CertificateBreach, DistMeshParams, LloydParams, MissedLengths, OptBetaParams, Outcome, PushPullParams, RemeshMethod,
     RemeshParams, Remeshed, Report, RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh,
-    WellSpacedParams, certificate, expected_vertices, missed_lengths, remesh, self_intersections, surface_distance, surface_quality,
-    surface_sizes,
+    WellSpacedParams, certificate, expected_vertices, hexagonal_spacing, missed_lengths, remesh, self_intersections, surface_distance,
+    surface_quality, surface_sizes,
 };
 use evenly_io::{read_numbers, read_triangles_or_points};
 use serde_json::Value;
@@ -132,7 +132,7 @@ pub fn remeshed(
     }
     let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
     memory::require_vertices(n_points)?;
-    let spacing = (2.0 * surface.area() / (3f64.sqrt() * n_points as f64)).sqrt();
+    let spacing = hexagonal_spacing(surface.area(), n_points as f64);
     refuse_others_flags(wishes)?;
     let method = method(wishes);
     if let Some(length) = wishes.tolerance.and_then(|target| target.0).filter(|&length| !(length > 0.0 && length.is_finite())) {

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use evenly::{EdgeKind, Mesh};
+use evenly::{EdgeKind, Mesh, OBTUSE_DEG};
 use serde::Serialize;
 
 /// A triangle that does not meet a demand.
@@ -23,9 +23,6 @@ impl std::fmt::Display for Unmet {
         write!(f, "{demand}: an angle of {angle_deg:.2} degrees at ({}, {}), {why}", at[0], at[1])
     }
 }
-
-/// An angle counts as obtuse above this.
-const OBTUSE_DEG: f64 = 90.0 + 1e-6;
 
 /// What sharp corners of the polygon force: how many triangles there have an angle below `least`.
 pub fn forced(mesh: &Mesh, least: f64) -> Option<String> {

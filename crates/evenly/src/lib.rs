@@ -15,8 +15,12 @@
 //! Lengths that are targets or measures are relative: 1 is the spacing of the hexagonal lattice with as many points,
 //! [`PointSet::hex_spacing`]. Positions are in whatever units the domain has.
 
+// The same bits on every platform: functions of crate `libm` alone.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod density;
 mod error;
+mod geometry;
 mod imaging;
 mod measure;
 mod mesh;
@@ -35,6 +39,8 @@ mod triangulation;
 
 pub use density::Density;
 pub use error::Error;
+pub use geometry::spacing::{hexagonal_count, hexagonal_spacing, triangle_count, triangle_side};
+pub use geometry::triangle::OBTUSE_DEG;
 pub use imaging::{
     BilateralParams, Image, ImageDifference, ReconstructionFilter, Similarity, ZonePlate, ZonePlateParams, bilateral, dot_coverage,
     subsampled_bilateral, zone_plate,

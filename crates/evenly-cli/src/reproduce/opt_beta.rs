@@ -2,7 +2,7 @@
 
 use evenly::{
     DistMeshParams, LloydParams, MeshMethod, MeshParams, OptBetaParams, PointSet, Polygon, ReconstructionFilter, RunContext, Space,
-    Tessellation, Torus, ZonePlateParams, lloyd, measure, mesh, mesh_quality, opt_beta, tessellate, zone_plate,
+    Tessellation, Torus, ZonePlateParams, hexagonal_spacing, lloyd, measure, mesh, mesh_quality, opt_beta, tessellate, zone_plate,
 };
 use evenly_io::{Axis, Curve, Draw, Subject, figure, picture};
 
@@ -351,7 +351,7 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
             let ours = [m.beta, by_start(m.coverage_radius), by_start(m.min_distance), m.min_angle_deg, m.max_angle_deg];
             table.row(format!("{} (not on the border), r_MPS = {radius}", recipe.name), &ours, paper(recipe.name));
         }
-        let spacing = radius * (2.0 / (3f64.sqrt() * POINTS_A_DISK)).sqrt();
+        let spacing = radius * hexagonal_spacing(1.0, POINTS_A_DISK);
         for (name, method) in methods {
             let params = MeshParams { method, seed: SEED, ..MeshParams::new(spacing) };
             let (mesh, _) = mesh(&l_shape, &params, &mut RunContext::default().with_cancel(lab.cancel.clone()))?;

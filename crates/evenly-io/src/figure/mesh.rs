@@ -2,16 +2,14 @@
 
 use std::fmt::Write as _;
 
-use evenly::Mesh;
+use evenly::{Mesh, OBTUSE_DEG};
 
 use super::svg::{Short, drawing};
 
 /// The longer side of the drawing, and the paper around, in pixels.
 const SIDE: f64 = 1200.0;
 const MARGIN: f64 = 12.0;
-/// Angles above this are marked.
-const OBTUSE_DEG: f64 = 90.0 + 1e-6;
-/// And below this.
+/// Obtuse angles are marked, and those below this.
 const THIN_DEG: f64 = 25.0;
 
 /// Draws a mesh: obtuse triangles light red, thin ones red.

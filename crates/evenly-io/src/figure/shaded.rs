@@ -5,7 +5,7 @@ mod view;
 
 use std::fmt::Write as _;
 
-use evenly::TriangleMesh;
+use evenly::{OBTUSE_DEG, TriangleMesh};
 
 use self::relief::Relief;
 use self::view::View;
@@ -18,9 +18,7 @@ const SIDE_OF_SEVERAL: f64 = 700.0;
 const MARGIN: f64 = 12.0;
 const GAP: f64 = 24.0;
 const CAPTION: f64 = 40.0;
-/// Angles above this are marked.
-const OBTUSE_DEG: f64 = 90.0 + 1e-6;
-/// And below this.
+/// Obtuse angles are marked, and those below this.
 const THIN_DEG: f64 = 30.0;
 /// The colours of good, obtuse and thin triangles in full light.
 const COLOURS: [[f64; 3]; 3] = [[219.0, 230.0, 240.0], [246.0, 190.0, 170.0], [215.0, 48.0, 31.0]];

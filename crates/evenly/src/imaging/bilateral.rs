@@ -154,12 +154,12 @@ impl Kernel {
     }
 
     fn of_place(&self, offset: f64) -> f64 {
-        (self.place * offset * offset).exp()
+        libm::exp(self.place * offset * offset)
     }
 
     fn of_range(&self, centre: &[f64], pixel: &[f64]) -> f64 {
         let squared: f64 = centre.iter().zip(pixel).map(|(a, b)| (a - b) * (a - b)).sum();
-        (self.range * squared).exp()
+        libm::exp(self.range * squared)
     }
 }
 

@@ -26,7 +26,7 @@ impl ReconstructionFilter {
             _ if x >= self.radius() => 0.0,
             Self::Mitchell if x < 1.0 => (7.0 * x * x * x - 12.0 * x * x + 16.0 / 3.0) / 6.0,
             Self::Mitchell => (-7.0 / 3.0 * x * x * x + 12.0 * x * x - 20.0 * x + 32.0 / 3.0) / 6.0,
-            Self::Gaussian => (-2.0 * x * x).exp(),
+            Self::Gaussian => libm::exp(-2.0 * x * x),
         }
     }
 }

@@ -51,7 +51,7 @@ impl Image {
         let rmse = self.difference(other)?.rmse;
         let of_channel = |channel: usize| ssim(&self.channel(channel), &other.channel(channel), self.width());
         let ssim = (0..self.n_channels()).map(of_channel).sum::<f64>() / self.n_channels() as f64;
-        Ok(Similarity { psnr_db: -20.0 * rmse.log10(), ssim })
+        Ok(Similarity { psnr_db: -20.0 * libm::log10(rmse), ssim })
     }
 }
 
@@ -77,7 +77,7 @@ fn blur(values: &[f64], width: usize, sigma_px: f64) -> Vec<f64> {
 
 fn blur_rows(values: &[f64], width: usize, sigma_px: f64) -> Vec<f64> {
     let reach = (REACH * sigma_px).ceil() as i64;
-    let weights: Vec<f64> = (-reach..=reach).map(|k| (-0.5 * (k as f64 / sigma_px).powi(2)).exp()).collect();
+    let weights: Vec<f64> = (-reach..=reach).map(|k| libm::exp(-0.5 * (k as f64 / sigma_px).powi(2))).collect();
     let total: f64 = weights.iter().sum();
     // Beyond the border the picture is mirrored, again and again where the kernel is wider than it.
     let mirrored = |column: i64| {

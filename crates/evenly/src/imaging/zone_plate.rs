@@ -116,7 +116,7 @@ impl Plate {
     /// The wave's frequency at a pixel, in waves a pixel.
     fn frequency(&self, index: usize) -> f64 {
         let [x, y] = self.middle(index);
-        self.chirp * x.hypot(y) / std::f64::consts::PI
+        self.chirp * libm::hypot(x, y) / std::f64::consts::PI
     }
 
     /// Each pixel is the mean of the samples near it, weighted by the filter, or, where its negative lobes all but cancel, by its positive part; and how many pixels
@@ -128,7 +128,7 @@ impl Plate {
         let mut sums = vec![[[0.0, 0.0]; 2]; self.pixels * self.pixels];
         let reach = self.filter.radius();
         for &[x, y] in places {
-            let value = (self.chirp * (x * x + y * y)).sin();
+            let value = libm::sin(self.chirp * (x * x + y * y));
             let near = |at: f64| ((at - 0.5 - reach).ceil() as i64).max(0)..=((at - 0.5 + reach).floor() as i64).min(n - 1);
             for row in near(y) {
                 let of_row = self.filter.weight(row as f64 + 0.5 - y);
@@ -160,7 +160,7 @@ impl Plate {
                 for step in 0..STEPS {
                     let offset = reach * (2.0 * (step as f64 + 0.5) / STEPS as f64 - 1.0);
                     let weight = self.filter.weight(offset);
-                    let (sine, cosine) = (self.chirp * (pixel as f64 + 0.5 + offset).powi(2)).sin_cos();
+                    let (sine, cosine) = libm::sincos(self.chirp * (pixel as f64 + 0.5 + offset).powi(2));
                     sums = [sums[0] + weight * sine, sums[1] + weight * cosine, sums[2] + weight];
                 }
                 [sums[0] / sums[2], sums[1] / sums[2]]
@@ -181,7 +181,7 @@ impl Plate {
         let mut rings: Vec<[f64; 2]> = Vec::new();
         for (index, value) in coarse.iter().enumerate() {
             let [x, y] = self.middle(index);
-            let ring = (x.hypot(y) / RING) as usize;
+            let ring = (libm::hypot(x, y) / RING) as usize;
             rings.resize(rings.len().max(ring + 1), [0.0; 2]);
             rings[ring][0] += value * value;
             rings[ring][1] += 1.0;
@@ -198,7 +198,7 @@ impl Plate {
     fn blurred(&self, values: &[f64]) -> Vec<f64> {
         const DEVIATION: f64 = 2.0;
         const REACH: usize = 6;
-        let weights: Vec<f64> = (0..=2 * REACH).map(|k| (-0.5 * ((k as f64 - REACH as f64) / DEVIATION).powi(2)).exp()).collect();
+        let weights: Vec<f64> = (0..=2 * REACH).map(|k| libm::exp(-0.5 * ((k as f64 - REACH as f64) / DEVIATION).powi(2))).collect();
         let n = self.pixels;
         let blur = |values: &[f64], index: usize, at: usize, step: usize| {
             let (mut sum, mut weight) = (0.0, 0.0);

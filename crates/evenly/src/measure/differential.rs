@@ -105,7 +105,7 @@ mod tests {
         for _ in 0..60_000 {
             let dart = [place(random.unit()), random.unit()];
             let reach = 0.75 * wanted(dart);
-            if kept.iter().all(|p| (p[0] - dart[0]).hypot(p[1] - dart[1]) >= reach.min(0.75 * wanted(*p))) {
+            if kept.iter().all(|p| libm::hypot(p[0] - dart[0], p[1] - dart[1]) >= reach.min(0.75 * wanted(*p))) {
                 kept.push(dart);
             }
         }

@@ -181,7 +181,7 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         beta: coverage_radius / visible,
         bond_order: sums.bond_order / n_inner,
         bond_order_psa: sums.bond_edges / (sums.neighbours as f64).max(1.0),
-        bond_order_global: sums.bond[0].hypot(sums.bond[1]) / n_inner,
+        bond_order_global: libm::hypot(sums.bond[0], sums.bond[1]) / n_inner,
         capacity_sd: (sums.capacity_squares / n_distinct as f64).sqrt(),
         capacity_max_deviation: sums.capacity_deviation,
         cvt_energy,

@@ -111,7 +111,7 @@ pub(super) fn n_bins(reach: f64) -> Result<usize, Error> {
 fn transform(frequencies: &[f64], distances: &[f64], correlation: &[f64]) -> Vec<f64> {
     use std::f64::consts::{PI, TAU};
     let reach = correlation.len() as f64 / BINS as f64;
-    let window = |r: f64| 0.43 + 0.5 * (PI * r / reach).cos() + 0.08 * (TAU * r / reach).cos();
+    let window = |r: f64| 0.43 + 0.5 * libm::cos(PI * r / reach) + 0.08 * libm::cos(TAU * r / reach);
     let excess: Vec<f64> = distances.iter().zip(correlation).map(|(&r, &g)| (g - 1.0) * r * window(r)).collect();
     let bessel = Bessel::up_to(TAU * MAX_FREQUENCY * reach);
     let power = |&f: &f64| {

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use crate::error::Error;
+use crate::geometry::triangle::Shape;
 use crate::triangulation::{BORDER, HalfEdges, Triangulation, clipped};
 
 /// Shapes of some triangles, summed up.
@@ -23,22 +24,16 @@ impl Shapes {
 
     /// Adds the triangle (0, u, v).
     fn add(&mut self, u: DVec2, v: DVec2) {
-        let twice_area = u.perp_dot(v);
-        let w = v - u;
-        // Angles from dot products at the three corners: each cross product is twice the area.
-        let dots = [u.dot(v), -u.dot(w), v.dot(w)];
-        for dot in dots {
-            let angle = twice_area.atan2(dot).to_degrees();
+        let shape = Shape::of_plane([DVec2::ZERO, u, v]);
+        for angle in shape.angles_deg {
             self.angle_squares += (angle - 60.0) * (angle - 60.0);
             self.min_angle_deg = self.min_angle_deg.min(angle);
             self.max_angle_deg = self.max_angle_deg.max(angle);
         }
-        // 2 r / R = 16 area^2 / (perimeter a b c), with r = 2 area / perimeter and R = a b c / (4 area).
-        let [a, b, c] = [u.length(), v.length(), w.length()];
-        self.qualities += 4.0 * (twice_area / (a * b)) * (twice_area / (c * (a + b + c)));
+        self.qualities += shape.radius_ratio();
         self.n_triangles += 1;
-        self.n_obtuse += usize::from(dots.iter().any(|&dot| dot < 0.0));
-        self.area += 0.5 * twice_area;
+        self.n_obtuse += usize::from(shape.is_obtuse());
+        self.area += shape.area;
     }
 
     pub fn angle_rms_deg(&self) -> f64 {

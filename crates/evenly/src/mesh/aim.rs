@@ -39,7 +39,7 @@ impl Aim {
     }
 
     fn new(distance: f64, radius: f64, relaxation: f64, [least, most]: [f64; 2]) -> Self {
-        Self { distance, radius, relaxation, most_cosine: least.to_radians().cos(), least_cosine: most.to_radians().cos() }
+        Self { distance, radius, relaxation, most_cosine: libm::cos(least.to_radians()), least_cosine: libm::cos(most.to_radians()) }
     }
 
     /// What moves points there; with a tolerance, cells are made alike too.

@@ -50,7 +50,7 @@ pub(super) fn divide(outline: &Outline, background: &mut Background) -> Vec<Part
         for piece in pieces {
             for v in piece.ends {
                 let (sum, n) = &mut stretches[v as usize];
-                let stretch = if part.ln().abs() < SLACK { 0.0 } else { part.ln() };
+                let stretch = if libm::log(part).abs() < SLACK { 0.0 } else { libm::log(part) };
                 (*sum, *n) = (*sum + stretch, *n + 1);
             }
         }
@@ -76,7 +76,7 @@ pub(super) fn divide(outline: &Outline, background: &mut Background) -> Vec<Part
         all.push(parts);
     }
     for (size, (sum, n)) in sizing.sizes.iter_mut().zip(stretches) {
-        *size *= (sum / f64::from(n.max(1))).exp();
+        *size *= libm::exp(sum / f64::from(n.max(1)));
     }
     all
 }
@@ -109,10 +109,10 @@ fn pieces(outline: &Outline, background: &Background) -> Vec<Vec<Piece>> {
 /// The mean of 1 / x between two numbers.
 fn mean_inverse(a: f64, b: f64) -> f64 {
     let ratio = b / a;
-    if (ratio - 1.0).abs() < 1e-6 { 2.0 / (a + b) } else { ratio.ln() / (b - a) }
+    if (ratio - 1.0).abs() < 1e-6 { 2.0 / (a + b) } else { libm::log(ratio) / (b - a) }
 }
 
 /// How far along a piece lies what is a given share of its length in spacings, if these grow by this ratio.
 fn share_at(share: f64, ratio: f64) -> f64 {
-    if (ratio - 1.0).abs() < 1e-6 { share } else { (ratio.powf(share) - 1.0) / (ratio - 1.0) }
+    if (ratio - 1.0).abs() < 1e-6 { share } else { (libm::pow(ratio, share) - 1.0) / (ratio - 1.0) }
 }

@@ -64,7 +64,7 @@ pub(super) fn cut_off(outline: &Outline, planar: &Planar, radii: &[f64]) -> (Out
         let ends = |radius: f64| [leaving, arriving].map(|v| snap(at + radius * (outline.points[v as usize] - at).normalize_or_zero()));
         let is_base = |[p, q]: [DVec2; 2]| p.distance(q) >= LEAST_BASE && is_left_turn(p - at, q - at);
         let step = radii[corner as usize];
-        let width = 2.0 * (0.5 * angle).sin();
+        let width = 2.0 * libm::sin(0.5 * angle);
         let is_needle = width < NARROW;
         // Up to where it is wide enough for triangles, or ends.
         let radius = if is_needle { (NARROW * step / width).min(room * (1.0 - width)) } else { step.min(SHARE * room) };

@@ -30,7 +30,7 @@ const FIRST_STEP: f64 = 0.25;
 const HALVINGS: usize = 5;
 
 /// Triangles from which vertices are taken out.
-pub(super) struct Coarsening<'a> {
+pub(super) struct Coarsening {
     positions: Vec<DVec2>,
     /// Triangles that are no more have no corners.
     triangles: Vec<Option<[u32; 3]>>,
@@ -39,17 +39,18 @@ pub(super) struct Coarsening<'a> {
     /// The outline's segment on which an edge lies, by its ends, in the direction of its triangle.
     segments: HashMap<[u32; 2], u32>,
     /// The segments' ends.
-    rails: &'a [[DVec2; 2]],
+    rails: Vec<[DVec2; 2]>,
     /// No angle may have a cosine above this.
     most_cosine: f64,
 }
 
-/// What coarsening leaves.
+/// A refined mesh, and what coarsening leaves of it.
 pub(super) struct Coarse {
     pub half_edges: HalfEdges,
     pub positions: Vec<DVec2>,
+    /// The outline's segment on which an edge lies, by its ends, in the direction of its triangle.
     pub segments: HashMap<[u32; 2], u32>,
-    /// The number that each vertex had.
+    /// The number that each vertex had when it was refined.
     pub source: Vec<u32>,
 }
 
@@ -61,20 +62,15 @@ enum Freedom {
     Along(u32),
 }
 
-impl<'a> Coarsening<'a> {
-    pub fn new(
-        half_edges: &HalfEdges,
-        positions: Vec<DVec2>,
-        segments: HashMap<[u32; 2], u32>,
-        rails: &'a [[DVec2; 2]],
-        least_deg: f64,
-    ) -> Self {
+impl Coarsening {
+    /// No angle is to be smaller than `least_deg`; `rails` are the ends of the outline's segments.
+    pub fn new(Coarse { half_edges, positions, segments, .. }: Coarse, rails: Vec<[DVec2; 2]>, least_deg: f64) -> Self {
         let mut around = vec![Vec::new(); positions.len()];
         for (t, corners) in (0..).zip(half_edges.triangles()) {
             corners.into_iter().for_each(|v| around[v as usize].push(t));
         }
         let triangles = half_edges.triangles().map(Some).collect();
-        Self { positions, triangles, around, segments, rails, most_cosine: least_deg.to_radians().cos() }
+        Self { positions, triangles, around, segments, rails, most_cosine: libm::cos(least_deg.to_radians()) }
     }
 
     /// Takes out what it can of the vertices from `first_added` on, and of those near them, where edges are much
@@ -259,7 +255,7 @@ struct Patch<'a> {
 
 impl<'a> Patch<'a> {
     fn new(
-        whole: &Coarsening<'a>,
+        whole: &'a Coarsening,
         movers: &[u32],
         triangles: Vec<[u32; 3]>,
         segment: Option<[u32; 2]>,
@@ -299,7 +295,7 @@ impl<'a> Patch<'a> {
             positions: vertices.iter().map(|&u| whole.positions[u as usize]).collect(),
             vertices,
             freedom,
-            rails: whole.rails,
+            rails: &whole.rails,
             triangles: inside,
             around,
             is_segment,

@@ -38,7 +38,7 @@ pub(super) fn finish(
     let Settled { triangulation, mut corners, edges, sizes, sizing, hints, .. } = settled;
     let Triangulation { half_edges, positions, .. } = triangulation;
     let n_settled = positions.len();
-    let aspect = 0.5 / refined_deg.to_radians().sin();
+    let aspect = 0.5 / libm::sin(refined_deg.to_radians());
     let planar = Planar { half_edges, positions, ..Planar::default() };
     let refined = |floor: f64, max_vertices: usize| {
         let refining = Refining { longest: f64::INFINITY, aspect, floor, halves_all: false, is_sparing: true, max_vertices, largest: None };
@@ -52,10 +52,15 @@ pub(super) fn finish(
     let Refinement { half_edges, positions, segments, .. } = refinement;
     corners.resize(positions.len(), BORDER);
     let sizes = sizes_of_all(sizes, hints, &sizing, &half_edges, &positions);
-    let rails: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
-    let mut coarsening = Coarsening::new(&half_edges, positions, segments, &rails, refined_deg);
-    coarsening.run(n_settled, |v| corners[v as usize] != BORDER, |v| sizes[v as usize]);
-    let Coarse { half_edges, positions, segments, source } = coarsening.finish();
+    let refined = Coarse { half_edges, source: (0..positions.len() as u32).collect(), positions, segments };
+    let coarse = if refined.positions.len() == n_settled {
+        refined
+    } else {
+        let mut coarsening = Coarsening::new(refined, outline.rails(), refined_deg);
+        coarsening.run(n_settled, |v| corners[v as usize] != BORDER, |v| sizes[v as usize]);
+        coarsening.finish()
+    };
+    let Coarse { half_edges, positions, segments, source } = coarse;
     let corners: Vec<u32> = source.iter().map(|&v| corners[v as usize]).collect();
     let sizes: Vec<f64> = source.iter().map(|&v| sizes[v as usize]).collect();
 

@@ -45,6 +45,7 @@ use self::scatter::{least_mass, scatter, total_mass};
 use self::settle::{Place, settle};
 use self::state::State;
 use crate::error::Error;
+use crate::geometry::triangle::Shape;
 use crate::points::{MAX_POINTS, Random};
 use crate::polygon::Polygon;
 use crate::run::{Outcome, Phase, Report, RunContext};
@@ -177,7 +178,11 @@ pub struct Mesh {
 impl Mesh {
     /// The angles of triangle `t` in degrees, each at its corner.
     pub fn angles_deg(&self, t: usize) -> [f64; 3] {
-        quality::angles_deg(self.triangles[t].map(|v| self.vertices[v]))
+        self.shape(t).angles_deg
+    }
+
+    fn shape(&self, t: usize) -> Shape {
+        Shape::of_plane(self.triangles[t].map(|v| self.vertices[v].into()))
     }
 }
 
@@ -262,8 +267,7 @@ fn meshed(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Resul
     // 3. Points inside: what the spacing asks for.
     let n_on_segments = outline.points.len() + parts.iter().map(|parts| parts.points.len()).sum::<usize>();
     require_few(total_mass(&background.sizing) + 0.5 * n_on_segments as f64)?;
-    let segments: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
-    let inside = scatter(&background.sizing, &SegmentTree::new(&segments), &mut Random::new(params.seed, 11));
+    let inside = scatter(&background.sizing, &SegmentTree::new(&outline.rails()), &mut Random::new(params.seed, 11));
     let state = State::new(&outline, background, &parts, inside);
 
     // 4. They find their places.

@@ -48,6 +48,11 @@ pub(super) enum Of {
 }
 
 impl Outline {
+    /// The ends of all segments, to which what lies on them keeps.
+    pub fn rails(&self) -> Vec<[DVec2; 2]> {
+        self.segments.iter().map(|segment| segment.ends.map(|v| self.points[v as usize])).collect()
+    }
+
     /// The polygon's border, with points that stay and lines that become edges, all in input units. Lines
     /// are split where they cross, and clipped at the border. The regions' outlines are lines, too, and
     /// have the numbers after the others'.

@@ -32,7 +32,7 @@ pub(super) fn polish(settled: &mut Settled, rails: &[[DVec2; 2]], aim: &Aim, see
         let mut movers: Vec<u32> = bad.iter().flatten().flat_map(|&v| ring(half_edges, outgoing[v as usize]).flatten()).collect();
         movers.sort_unstable();
         movers.dedup();
-        let reach = FARTHEST * (NEAREST / FARTHEST).powf(round as f64 / (ROUNDS - 1) as f64);
+        let reach = FARTHEST * libm::pow(NEAREST / FARTHEST, round as f64 / (ROUNDS - 1) as f64);
         for v in movers {
             let from = positions[v as usize];
             let least_area = LEAST_AREA * settled.sizes[v as usize].powi(2);

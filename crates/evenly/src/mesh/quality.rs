@@ -41,18 +41,6 @@ pub struct MeshQuality {
     pub size_errors: Option<SizeErrors>,
 }
 
-/// An angle counts as obtuse above this.
-const OBTUSE_DEG: f64 = 90.0 + 1e-6;
-
-/// A triangle's angles in degrees, at its corners.
-pub(super) fn angles_deg(corners: [[f64; 2]; 3]) -> [f64; 3] {
-    let way = |a: [f64; 2], b: [f64; 2]| [b[0] - a[0], b[1] - a[1]];
-    [0, 1, 2].map(|k| {
-        let (u, v) = (way(corners[k], corners[(k + 1) % 3]), way(corners[k], corners[(k + 2) % 3]));
-        (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1]).to_degrees()
-    })
-}
-
 /// Each edge once: from its triangle in which it runs upwards, or from the only one that it has.
 fn size_errors(mesh: &Mesh) -> Option<SizeErrors> {
     if mesh.sizes.len() != mesh.vertices.len() {
@@ -63,7 +51,7 @@ fn size_errors(mesh: &Mesh) -> Option<SizeErrors> {
     let edges = sides.filter(|&[a, b]| a < b || is_on_border.contains(&[a, b]));
     SizeErrors::of(edges.map(|ends| {
         let [p, q] = ends.map(|v| mesh.vertices[v]);
-        ((p[0] - q[0]).hypot(p[1] - q[1]), ends.map(|v| mesh.sizes[v]))
+        (libm::hypot(p[0] - q[0], p[1] - q[1]), ends.map(|v| mesh.sizes[v]))
     }))
 }
 
@@ -86,28 +74,21 @@ pub fn mesh_quality(mesh: &Mesh) -> MeshQuality {
         size_errors: size_errors(mesh),
     };
     let mut max_radius = 0f64;
-    for t in &mesh.triangles {
-        let corners = t.map(|v| mesh.vertices[v]);
-        let angles = angles_deg(corners);
-        let [least, most] = [angles.into_iter().fold(f64::INFINITY, f64::min), angles.into_iter().fold(f64::NEG_INFINITY, f64::max)];
-        let sides = [0, 1, 2].map(|k| {
-            let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            (a[0] - b[0]).hypot(a[1] - b[1])
-        });
-        let shortest = sides.into_iter().fold(f64::INFINITY, f64::min);
-        let radius = shortest / (2.0 * least.to_radians().sin());
+    for t in 0..mesh.triangles.len() {
+        let shape = mesh.shape(t);
+        let [least, most] = shape.extreme_angles_deg();
+        let shortest = shape.shortest();
+        let radius = shortest / (2.0 * libm::sin(least.to_radians()));
         quality.min_angle_deg = quality.min_angle_deg.min(least);
         quality.max_angle_deg = quality.max_angle_deg.max(most);
         quality.mean_min_angle_deg += least;
-        quality.obtuse_triangles += usize::from(most > OBTUSE_DEG);
+        quality.obtuse_triangles += usize::from(shape.is_obtuse());
         quality.radius_edge = quality.radius_edge.max(radius / shortest);
         max_radius = max_radius.max(radius);
         quality.min_edge = quality.min_edge.min(shortest);
-        quality.max_edge = sides.into_iter().fold(quality.max_edge, f64::max);
-        // 2 r / R = 8 sin(A/2) sin(B/2) sin(C/2).
-        quality.triangle_quality += 8.0 * angles.into_iter().map(|angle| (0.5 * angle.to_radians()).sin()).product::<f64>();
-        let [a, b, c] = corners;
-        quality.area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+        quality.max_edge = quality.max_edge.max(shape.longest());
+        quality.triangle_quality += shape.radius_ratio();
+        quality.area += shape.area;
     }
     let n = mesh.triangles.len() as f64;
     quality.mean_min_angle_deg /= n;

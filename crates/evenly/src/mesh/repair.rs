@@ -9,6 +9,7 @@ use glam::DVec2;
 use self::changes::Change;
 use super::aim::Aim;
 use super::state::State;
+use crate::geometry::spacing::triangle_count;
 use crate::space::snap;
 use crate::triangulation::{Bonds, LiveMesh, Track, Triangulation, circumcentre, prev};
 
@@ -128,7 +129,7 @@ impl<'a> View<'a> {
         let around = half_edges.triangle(t).into_iter().flat_map(|v| half_edges.around(self.outgoing[v as usize])).map(|h| h as usize / 3);
         let share = |t: usize| {
             let [a, b, c] = self.places(t);
-            2.0 * (b - a).perp_dot(c - a) / (3f64.sqrt() * self.spacing(t).powi(2))
+            triangle_count(0.5 * (b - a).perp_dot(c - a), self.spacing(t))
         };
         around.map(|t| share(t) - 1.0).sum::<f64>() < 0.0
     }

@@ -3,6 +3,7 @@
 
 use glam::DVec2;
 
+use crate::geometry::spacing::hexagonal_count;
 use crate::points::Random;
 use crate::predicates::is_left_turn;
 use crate::space::{SegmentTree, snap};
@@ -22,7 +23,7 @@ type Piece = [(DVec2, f64); 3];
 fn mass(piece: &Piece) -> f64 {
     let [(a, of_a), (b, of_b), (c, of_c)] = *piece;
     let size = (of_a + of_b + of_c) / 3.0;
-    (b - a).perp_dot(c - a) / (3f64.sqrt() * size * size)
+    hexagonal_count(0.5 * (b - a).perp_dot(c - a), size)
 }
 
 /// Pieces are no larger than this many points, far from segments and near them.

@@ -39,8 +39,7 @@ pub(super) fn settle(state: State, place: Place, mover: &Mover, run: &mut RunCon
     // Whoever has interrupted wants the state reached, and soon.
     let aim = mover.aim();
     if !run.is_cancelled() {
-        let rails: Vec<[DVec2; 2]> = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
-        polish(&mut settled, &rails, &aim, mover.seed);
+        polish(&mut settled, &outline.rails(), &aim, mover.seed);
     }
     report.outcome = match () {
         () if run.is_cancelled() => Outcome::Cancelled,

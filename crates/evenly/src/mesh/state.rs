@@ -44,7 +44,7 @@ impl State {
         points.extend(inside.points);
         hints.extend(inside.hints);
         corners.resize(points.len(), BORDER);
-        let rails = outline.segments.iter().map(|segment| segment.ends.map(|v| outline.points[v as usize])).collect();
+        let rails = outline.rails();
         let bonds = Bonds { tracks, rails, edges, sizing: Arc::new(sizing), hints };
         Self { points, corners, bonds }
     }

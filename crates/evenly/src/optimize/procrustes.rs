@@ -248,7 +248,7 @@ impl Decay {
         let share = self.params.tolerance / recent;
         match self.params.mode {
             Mode::Paper => share.sqrt(),
-            Mode::Fast => 1.0 - share.ln() / (self.params.tolerance / self.largest).min(0.999).ln(),
+            Mode::Fast => 1.0 - libm::log(share) / libm::log((self.params.tolerance / self.largest).min(0.999)),
         }
     }
 

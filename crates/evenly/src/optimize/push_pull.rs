@@ -198,7 +198,7 @@ impl PushPullParams {
 
     /// Passes that tough targets may take: more points have a worse worst spot.
     fn pass_limit(&self, n_points: usize) -> usize {
-        (1000.0 * ((n_points as f64).log10() - 1.0)).max(2000.0) as usize
+        (1000.0 * (libm::log10(n_points as f64) - 1.0)).max(2000.0) as usize
     }
 }
 

@@ -119,7 +119,7 @@ impl Targets for WellSpacedParams {
 /// The angles in degrees between which all angles of a Delaunay triangulation lie whose coverage radius is `beta` times its smallest distance; `None`
 /// from 1 on, where they say little. On a bounded domain they hold for triangles with their circumcentre in it.
 pub fn angle_bounds_deg(beta: f64) -> Option<[f64; 2]> {
-    let least = (0.5 / beta).asin().to_degrees();
+    let least = libm::asin(0.5 / beta).to_degrees();
     (beta < 1.0).then_some([least, 180.0 - 2.0 * least])
 }
 

@@ -73,7 +73,7 @@ fn thin(domain: &Domain, field: Option<&Field>, (places, n_fixed): (&[DVec2], us
     // Twice the paper's r_max and r_min. A row of points has another spacing, and room enough to need no r_min.
     let (spacing, of_row) = (domain.hex_spacing(n_points), domain.size.max_element() / n_points as f64);
     let farthest = spacing.max(of_row);
-    let nearest = if of_row > spacing { 0.0 } else { farthest * (1.0 - (n_points as f64 / left.len() as f64).powf(GAMMA)) * BETA };
+    let nearest = if of_row > spacing { 0.0 } else { farthest * (1.0 - libm::pow(n_points as f64 / left.len() as f64, GAMMA)) * BETA };
     let nearest = nearest / farthest;
     let weight = |distance: f64| (1.0 - distance.max(nearest)).powi(ALPHA);
     let crowd = Crowd::new(domain, field, left.iter().map(|&index| places[index as usize]), farthest);

@@ -41,7 +41,7 @@ fn n_rows(n_points: usize, size: DVec2, is_periodic: bool) -> usize {
     let ideal = (n_points as f64 * size.y / size.x * 2.0 / 3f64.sqrt()).sqrt();
     let step = if is_periodic && n_points > 1 { 2 } else { 1 };
     let nearest = ((ideal / step as f64).round() as usize * step).clamp(step, n_points.max(step));
-    let near = |rows: usize| (rows as f64 / ideal).ln().abs();
+    let near = |rows: usize| libm::log(rows as f64 / ideal).abs();
     (1..=n_points.min(2 * nearest + 2))
         .filter(|&rows| rows % step == 0 && n_points.is_multiple_of(rows) && near(rows) < 0.1)
         .min_by(|&a, &b| near(a).total_cmp(&near(b)))

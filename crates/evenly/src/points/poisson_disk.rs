@@ -253,7 +253,7 @@ impl Darts {
             conflict: (spacing * (1.0 + margin)).powi(2),
             coverage: (coverage * (1.0 - ROUNDING) - GRID).powi(2),
             slack,
-            max_level: -margin.max(SMALLEST).max(GRID / spacing).log2() as u8,
+            max_level: -libm::log2(margin.max(SMALLEST).max(GRID / spacing)) as u8,
             waiting: Vec::new(),
             near: Vec::new(),
             squares: Vec::new(),
@@ -382,7 +382,7 @@ impl Darts {
 
     /// Sets a cell's clock to when a dart falls next on so much area; never, on none.
     fn wind(&mut self, cell: usize, time: f32, area: f64) {
-        let time = if area > 0.0 { time + (-(1.0 - self.random.unit()).ln() / area) as f32 } else { f32::INFINITY };
+        let time = if area > 0.0 { time + (-libm::log(1.0 - self.random.unit()) / area) as f32 } else { f32::INFINITY };
         self.areas[cell] = area as f32;
         self.cells.set_clock(cell, time);
     }

@@ -26,14 +26,14 @@ const MOST_LEVELS: usize = 12;
 impl RadiusBins {
     /// Empty bins, for radii up to the first length, and about down to the second.
     pub fn new(domain: &Domain, widest: f64, narrowest: f64) -> Self {
-        let n_levels = ((widest / narrowest).log2().floor().max(0.0) as usize + 1).min(MOST_LEVELS);
+        let n_levels = (libm::log2(widest / narrowest).floor().max(0.0) as usize + 1).min(MOST_LEVELS);
         let level = |k: usize| Level { bins: Bins::new(domain, widest / (1 << k) as f64), radii: Vec::new(), numbers: Vec::new() };
         Self { levels: (0..n_levels).map(level).collect(), widest, n_points: 0 }
     }
 
     /// Points are numbered as they come.
     pub fn push(&mut self, place: DVec2, radius: f64) {
-        let level = ((self.widest / radius).log2().max(0.0) as usize).min(self.levels.len() - 1);
+        let level = (libm::log2(self.widest / radius).max(0.0) as usize).min(self.levels.len() - 1);
         let level = &mut self.levels[level];
         level.bins.push(place);
         level.radii.push(radius);

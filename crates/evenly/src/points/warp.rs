@@ -198,7 +198,7 @@ fn freed_minimum(x: f64, n_below: usize, n: usize) -> f64 {
         at_most_below += choose * x.powi(j as i32) * (1.0 - x).powi((n - j) as i32);
         choose *= (n - j) as f64 / (j + 1) as f64;
     }
-    1.0 - at_most_below.powf(1.0 / (n - n_below) as f64)
+    1.0 - libm::pow(at_most_below, 1.0 / (n - n_below) as f64)
 }
 
 #[cfg(test)]

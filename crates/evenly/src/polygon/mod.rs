@@ -328,7 +328,7 @@ fn counted(n: usize, one: &str, many: &str) -> String {
 
 /// A coordinate to nine digits of the domain's size.
 fn in_digits_of(x: f64, size: f64) -> f64 {
-    let n_digits = (9 - size.log10().floor() as i32).clamp(0, 300) as usize;
+    let n_digits = (9 - libm::log10(size).floor() as i32).clamp(0, 300) as usize;
     format!("{x:.n_digits$}").parse().unwrap_or(x)
 }
 

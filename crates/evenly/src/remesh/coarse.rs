@@ -20,7 +20,7 @@ pub(super) fn warning(surface: &Surface, start: &Start, n_points: usize) -> Opti
     let (start_area, start_volume) = measured((0..start.half_edges.n_triangles()).map(of_start));
     let of_area = (area - start_area) / area;
     // Twice the area, and six times the volume, which of a cube are 12 and 6.
-    let has_volume = surface.is_closed() && volume.abs() > THIN * 6.0 * (area / 12.0).powf(1.5);
+    let has_volume = surface.is_closed() && volume.abs() > THIN * 6.0 * libm::pow(area / 12.0, 1.5);
     let of_volume = if has_volume { (volume - start_volume) / volume } else { 0.0 };
     let loss = of_area.abs().max(of_volume.abs());
     if !(loss > MUCH && loss.is_finite()) {
@@ -28,7 +28,7 @@ pub(super) fn warning(surface: &Surface, start: &Start, n_points: usize) -> Opti
     }
     // What chords lose falls with the square of their length.
     let needed = n_points as f64 * loss / LITTLE;
-    let digits = 10f64.powf(needed.log10().floor() - 1.0);
+    let digits = libm::pow(10.0, libm::log10(needed).floor() - 1.0);
     let percent = |share: f64| format!("{:.0} % {}", 100.0 * share.abs(), if share < 0.0 { "more" } else { "less" });
     let both = match has_volume {
         true => format!("{} area and {} volume", percent(of_area), percent(of_volume)),

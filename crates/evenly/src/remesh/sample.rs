@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::start::{Wanted, start};
 use super::{RemeshParams, SurfacePoint, remesh};
 use crate::error::Error;
+use crate::geometry::spacing::hexagonal_spacing;
 use crate::run::{Outcome, Phase, Report, RunContext};
 use crate::surface::{Features, Place, Surface, poisson_disk, white};
 
@@ -28,7 +29,7 @@ const SPACING_OF_MAXIMAL: f64 = 0.78;
 impl SurfaceSampling {
     /// A maximal Poisson-disk sample with about so many points.
     pub fn poisson_disk_of(surface: &Surface, n_points: usize) -> Self {
-        Self::PoissonDisk(SPACING_OF_MAXIMAL * (2.0 * surface.area() / (3f64.sqrt() * n_points.max(1) as f64)).sqrt())
+        Self::PoissonDisk(SPACING_OF_MAXIMAL * hexagonal_spacing(surface.area(), n_points.max(1) as f64))
     }
 }
 

@@ -6,11 +6,12 @@ use super::eliminate::{eliminate, subdivide};
 use super::given::{n_kept, on_edges, put_all};
 use super::live::{Start, Vertex};
 use crate::error::Error;
+use crate::geometry::spacing::hexagonal_spacing;
 use crate::surface::{Features, Place, Surface, morton};
 
 /// The spacing of so many vertices on a surface: the edge of equilateral triangles, two for each.
 pub(super) fn spacing(surface: &Surface, n_points: usize) -> f64 {
-    (2.0 * surface.inner_area() / (3f64.sqrt() * n_points as f64)).sqrt()
+    hexagonal_spacing(surface.inner_area(), n_points as f64)
 }
 
 /// What a start is to be.

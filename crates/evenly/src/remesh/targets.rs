@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::live::LiveSurface;
+use crate::geometry::spacing::triangle_side;
 use crate::optimize::PushPullParams;
 
 /// Lengths that are off by less than this, in spacings, are as wanted.
@@ -19,7 +20,7 @@ impl LiveSurface<'_> {
             0.5 * (b - a).cross(c - a).length() * scale * scale
         };
         let area: f64 = (0..n).map(of_triangle).sum();
-        self.spacing = (4.0 * area / (3f64.sqrt() * n as f64)).sqrt();
+        self.spacing = triangle_side(area, n as f64);
     }
 
     /// Whether each edge of each triangle is at least as long as is wanted there, and each circumradius at most as large.

@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use super::border::Border;
 use super::grid::snap;
+use crate::geometry::spacing::hexagonal_spacing;
 use crate::predicates::is_left_turn;
 
 /// Adding and subtracting this rounds to an integer, for |x| < 2^51.
@@ -36,7 +37,7 @@ impl Domain {
     /// The box of this size, in input units, with its lower left corner at `origin`.
     pub fn new(origin: [f64; 2], size: [f64; 2], is_periodic: bool) -> Self {
         let (origin, size) = (DVec2::from(origin), DVec2::from(size));
-        let scale = (-size.max_element().log2().floor()).exp2();
+        let scale = libm::ldexp(1.0, -libm::ilogb(size.max_element()));
         let domain = Self {
             size: snap(size * scale),
             is_periodic,
@@ -81,7 +82,7 @@ impl Domain {
 
     /// The spacing of the hexagonal lattice with `n_points` points.
     pub fn hex_spacing(&self, n_points: usize) -> f64 {
-        (2.0 * self.area() / (3f64.sqrt() * n_points as f64)).sqrt()
+        hexagonal_spacing(self.area(), n_points as f64)
     }
 
     /// From input units.

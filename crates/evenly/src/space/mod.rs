@@ -220,7 +220,7 @@ impl Space {
     pub(crate) fn perimeter(&self) -> f64 {
         let length = |ring: &Vec<[f64; 2]>| -> f64 {
             let ends = ring.iter().zip(ring.iter().cycle().skip(1));
-            ends.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
+            ends.map(|(a, b)| libm::hypot(b[0] - a[0], b[1] - a[1])).sum()
         };
         match self.region() {
             Some(region) => region.rings().iter().map(length).sum(),

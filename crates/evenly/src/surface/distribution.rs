@@ -12,6 +12,7 @@ use super::neighbours::{Neighbours, Seen, Spot};
 use super::walk::Place;
 use super::{Facets, Surface};
 use crate::error::Error;
+use crate::geometry::spacing::hexagonal_spacing;
 use crate::measure::{BINS, RadialSpectrum, level};
 
 /// What [`measure_on_surface`] finds, by ways along the surface.
@@ -52,7 +53,7 @@ const NEIGHBOURS: usize = 64;
 pub fn measure_on_surface(surface: &Surface, points: &[[f64; 3]]) -> Result<SurfaceMeasures, Error> {
     let (spots, off) = spots(surface, points)?;
     let near = Neighbours::new(surface, &spots);
-    let hexagonal = (2.0 * surface.inner_area() / (3f64.sqrt() * spots.len() as f64)).sqrt();
+    let hexagonal = hexagonal_spacing(surface.inner_area(), spots.len() as f64);
     let of_chunk = |chunk: &[Spot], first: usize| {
         let (mut seen, mut distances) = (Seen::new(surface), Vec::new());
         let nearest = |(k, spot): (usize, &Spot)| {

@@ -161,7 +161,7 @@ fn separate(half_edges: &mut HalfEdges, edge: &[u32], points: &[DVec3]) -> bool 
         way - axis * way.dot(axis)
     };
     let (x, y) = (side(first), axis.cross(side(first)));
-    let mut around: Vec<(f64, u32)> = edge.iter().map(|&h| (side(h).dot(y).atan2(side(h).dot(x)), h)).collect();
+    let mut around: Vec<(f64, u32)> = edge.iter().map(|&h| (libm::atan2(side(h).dot(y), side(h).dot(x)), h)).collect();
     around.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let is_forward = |h: u32| half_edges.origin[h as usize] == from;
     // A triangle that runs along the axis has its outside where angles are larger, and its inside where they are less: there its partner is, as brackets close what others

@@ -6,7 +6,8 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::Surface;
-use super::quality::{SIZE, Shape, edges};
+use super::quality::{SIZE, edges};
+use crate::geometry::triangle::Shape;
 
 /// How many lengths of a mesh miss a target, and the worst of them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -51,7 +52,7 @@ pub fn missed_lengths(surface: &Surface, min_distance: Option<f64>, coverage_rad
         let all = (0..surface.n_triangles()).map(|t| {
             let corners = surface.corners(t);
             let wanted: f64 = surface.half_edges.triangle(t).iter().map(|&v| sizes[v as usize]).sum();
-            (3.0 * outward(Shape::of(corners).circumradius()) / wanted, (corners[0] + corners[1] + corners[2]) / 3.0)
+            (3.0 * outward(Shape::of_space(corners).circumradius()) / wanted, (corners[0] + corners[1] + corners[2]) / 3.0)
         });
         let misses = |share: f64| share > wanted * (1.0 + ROUNDING);
         told(surface, "circumradii are larger than", wanted, all.filter(|&(share, _)| misses(share)))

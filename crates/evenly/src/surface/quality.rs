@@ -1,9 +1,10 @@
 //! What a surface mesh is worth: the columns of Table 2 of Ahmed et al. (2017, doi 10.1109/TVCG.2016.2641963), and a certificate for its angles.
 
-use glam::DVec3;
 use serde::Serialize;
 
 use super::Surface;
+use crate::geometry::spacing::triangle_side;
+use crate::geometry::triangle::Shape;
 use crate::measure::SizeErrors;
 use crate::triangulation::{BORDER, prev};
 
@@ -115,22 +116,19 @@ pub fn surface_quality(surface: &Surface) -> SurfaceQuality {
     };
     let (mut thin, mut squares) = (0, 0.0);
     for t in 0..n_triangles {
-        let corners = surface.corners(t);
-        let shape = Shape::of(corners);
-        let Shape { edges, area, angles } = shape;
-        let [shortest, longest] = [edges.iter().copied().fold(f64::INFINITY, f64::min), edges.iter().copied().fold(0.0, f64::max)];
-        let q = 6.0 * area / (3f64.sqrt() * 0.5 * edges.iter().sum::<f64>() * longest);
-        let [least, largest] = extremes(angles);
+        let shape = Shape::of_space(surface.corners(t));
+        let q = shape.quality();
+        let [least, largest] = shape.extreme_angles_deg();
         quality.min_quality = quality.min_quality.min(q);
         quality.mean_quality += q / n;
         quality.min_angle_deg = quality.min_angle_deg.min(least);
         quality.max_angle_deg = quality.max_angle_deg.max(largest);
         quality.mean_min_angle_deg += least / n;
-        squares += angles.iter().map(|angle| (angle - 60.0).powi(2)).sum::<f64>();
+        squares += shape.angles_deg.iter().map(|angle| (angle - 60.0).powi(2)).sum::<f64>();
         thin += usize::from(least < 30.0);
-        quality.obtuse_triangles += usize::from(largest > 90.0 + ROUNDING_DEG);
-        quality.min_edge = quality.min_edge.min(shortest);
-        quality.max_edge = quality.max_edge.max(longest);
+        quality.obtuse_triangles += usize::from(shape.is_obtuse());
+        quality.min_edge = quality.min_edge.min(shape.shortest());
+        quality.max_edge = quality.max_edge.max(shape.longest());
         quality.max_circumradius = quality.max_circumradius.max(shape.circumradius());
     }
     quality.angle_rms_deg = (squares / (3.0 * n)).sqrt();
@@ -138,7 +136,7 @@ pub fn surface_quality(surface: &Surface) -> SurfaceQuality {
     quality.obtuse_fraction = quality.obtuse_triangles as f64 / n;
     [quality.valence_567_fraction, quality.valence_6_fraction] = valences(surface);
     quality.beta = quality.max_circumradius / quality.min_edge;
-    let spacing = (4.0 * surface.inner_area() / (3f64.sqrt() * n)).sqrt();
+    let spacing = triangle_side(surface.inner_area(), n);
     quality.min_distance = quality.min_edge / spacing;
     quality.coverage_radius = quality.max_circumradius / spacing;
     quality.spacing = surface.frame.length_outward(spacing);
@@ -156,7 +154,7 @@ pub fn certificate(surface: &Surface, beta: f64) -> Vec<CertificateBreach> {
     let most = 180.0 - 2.0 * least;
     let breach = |t: usize| {
         let corners = surface.corners(t);
-        let [min_angle_deg, max_angle_deg] = extremes(Shape::of(corners).angles);
+        let [min_angle_deg, max_angle_deg] = Shape::of_space(corners).extreme_angles_deg();
         let is_certified = min_angle_deg >= least - ROUNDING_DEG && max_angle_deg <= most + ROUNDING_DEG;
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
         (!is_certified).then(|| CertificateBreach {
@@ -183,31 +181,6 @@ fn size_errors(surface: &Surface) -> Option<SizeErrors> {
         let [a, b] = ends.map(|v| surface.points[v]);
         (surface.frame.length_outward(a.distance(b)), ends.map(|v| sizes[v]))
     }))
-}
-
-pub(super) struct Shape {
-    edges: [f64; 3],
-    area: f64,
-    angles: [f64; 3],
-}
-
-impl Shape {
-    pub fn of([a, b, c]: [DVec3; 3]) -> Self {
-        let angle = |at: DVec3, u: DVec3, v: DVec3| libm::atan2((u - at).cross(v - at).length(), (u - at).dot(v - at)).to_degrees();
-        Self {
-            edges: [a.distance(b), b.distance(c), c.distance(a)],
-            area: 0.5 * (b - a).cross(c - a).length(),
-            angles: [angle(a, b, c), angle(b, c, a), angle(c, a, b)],
-        }
-    }
-
-    pub fn circumradius(&self) -> f64 {
-        self.edges.iter().product::<f64>() / (4.0 * self.area)
-    }
-}
-
-fn extremes(angles: [f64; 3]) -> [f64; 2] {
-    [angles.iter().copied().fold(f64::INFINITY, f64::min), angles.iter().copied().fold(0.0, f64::max)]
 }
 
 /// The parts of the vertices inside that have 5 to 7, and 6 neighbours.

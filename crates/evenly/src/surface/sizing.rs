@@ -9,6 +9,7 @@ use super::Surface;
 use super::feature_size::feature_sizes;
 use super::features::Features;
 use crate::error::Error;
+use crate::geometry::spacing::hexagonal_count;
 use crate::triangulation::prev;
 
 /// By what the wanted lengths of edges vary over a surface.
@@ -104,7 +105,7 @@ pub fn surface_sizes(surface: &Surface, sizing: &SurfaceSizing, n_points: Option
     // Twice: the spacing depends on the sizes, and how fast they may grow on the spacing.
     for _ in 0..2 {
         if let Some(n) = n_points {
-            let scale = (vertices_of_area(weighted_area(surface, &sizes)) / n as f64).sqrt();
+            let scale = (hexagonal_count(weighted_area(surface, &sizes), 1.0) / n as f64).sqrt();
             sizes.iter_mut().for_each(|size| *size *= scale);
         }
         if !matches!(sizing, SurfaceSizing::Linear { .. }) {
@@ -118,12 +119,7 @@ pub fn surface_sizes(surface: &Surface, sizing: &SurfaceSizing, n_points: Option
 /// About how many vertices have room on a surface whose edges are to be so long, in input units, at its vertices.
 pub fn expected_vertices(surface: &Surface, sizes: &[f64]) -> f64 {
     let unit = surface.frame.length_outward(1.0);
-    vertices_of_area(weighted_area(surface, sizes) * unit * unit)
-}
-
-/// How many vertices with a spacing of 1 an area has room for: equilateral triangles, two for each.
-fn vertices_of_area(area: f64) -> f64 {
-    area * 2.0 / 3f64.sqrt()
+    hexagonal_count(weighted_area(surface, sizes) * unit * unit, 1.0)
 }
 
 /// The area inside, each triangle's in squares of the mean size at its corners.

@@ -35,7 +35,7 @@ impl Cells {
     pub fn new(mesh: &mut LiveMesh) -> Self {
         let size = if mesh.is_cover() { DVec2::ZERO } else { mesh.domain().size };
         let fitting = (size / (SIDE * mesh.typical_spacing())).to_array();
-        let mut n_cells = fitting.map(|n| if n < 2.0 { 1 } else { 1 << (n.log2() as u32) }).map(|n: u32| n.min(MAX_CELLS));
+        let mut n_cells = fitting.map(|n| if n < 2.0 { 1 } else { 1 << (libm::log2(n) as u32) }).map(|n: u32| n.min(MAX_CELLS));
         // In a polygon's frame most may be empty.
         while n_cells[0] as usize * n_cells[1] as usize > mesh.n_points().max(1) {
             n_cells[usize::from(n_cells[1] > n_cells[0])] /= 2;

@@ -68,8 +68,8 @@ fn turn(place: f64, first: usize, weight: f64, functions: &mut [f64]) {
     use std::f64::consts::TAU;
     let (cosines, sines) = functions.split_at_mut(functions.len() / 2);
     let start = (first as f64 * place).fract();
-    let (sine, cosine) = (TAU * start).sin_cos();
-    let (turn_sine, turn_cosine) = (TAU * place).sin_cos();
+    let (sine, cosine) = libm::sincos(TAU * start);
+    let (turn_sine, turn_cosine) = libm::sincos(TAU * place);
     let (mut c, mut s) = (weight * cosine, weight * sine);
     for (cosine, sine) in cosines.iter_mut().zip(sines) {
         (*cosine, *sine) = (c, s);

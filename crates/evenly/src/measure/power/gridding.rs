@@ -133,7 +133,7 @@ impl Kernel {
     fn values(&self, offset: f64) -> [f64; WIDTH] {
         std::array::from_fn(|cell| {
             let z = (offset + cell as f64) / (0.5 * WIDTH as f64);
-            (self.sharpness * ((1.0 - z * z).max(0.0).sqrt() - 1.0)).exp()
+            libm::exp(self.sharpness * ((1.0 - z * z).max(0.0).sqrt() - 1.0))
         })
     }
 
@@ -143,8 +143,8 @@ impl Kernel {
         const STEPS: usize = 200;
         let sum: f64 = (1..STEPS)
             .map(|step| {
-                let (z, cosine) = (step as f64 / STEPS as f64 * PI - FRAC_PI_2).sin_cos();
-                (self.sharpness * (cosine - 1.0)).exp() * (PI * frequency * WIDTH as f64 * z).cos() * cosine
+                let (z, cosine) = libm::sincos(step as f64 / STEPS as f64 * PI - FRAC_PI_2);
+                libm::exp(self.sharpness * (cosine - 1.0)) * libm::cos(PI * frequency * WIDTH as f64 * z) * cosine
             })
             .sum();
         0.5 * WIDTH as f64 * sum * PI / STEPS as f64

@@ -20,7 +20,7 @@ pub(super) fn of(power: &[f64], half: [usize; 2], step: [f64; 2], max_frequency:
             if a == 0 && b <= 0.0 {
                 continue;
             }
-            let frequency = (a as f64 * step[0]).hypot(b * step[1]);
+            let frequency = libm::hypot(a as f64 * step[0], b * step[1]);
             if let Some([n, sum, squares]) = sums.get_mut((frequency / width).round() as usize) {
                 *n += 1.0;
                 *sum += power;
@@ -34,7 +34,7 @@ pub(super) fn of(power: &[f64], half: [usize; 2], step: [f64; 2], max_frequency:
         let variance = (squares - n * mean * mean).max(0.0) / (n - 1.0);
         // What is left of no power, or of no difference, is rounding.
         let is_known = n > 1.0 && mean > 1e-9 && variance > 1e-18 * mean * mean;
-        if is_known { 10.0 * (variance / (mean * mean)).log10() } else { f64::NAN }
+        if is_known { 10.0 * libm::log10(variance / (mean * mean)) } else { f64::NAN }
     };
     Rings {
         frequencies: rings().map(|(ring, _)| ring as f64 * width).collect(),

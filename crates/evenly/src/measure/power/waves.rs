@@ -25,7 +25,7 @@ impl Waves {
         let has_window = !domain.is_periodic;
         let share = |axis: usize| positions.iter().map(|p| p[axis] / domain.size[axis]).collect();
         let [x, y]: [Vec<f64>; 2] = by_short_side(half, [share(0), share(1)]);
-        let window = |t: f64| (std::f64::consts::PI * t).sin().powi(2);
+        let window = |t: f64| libm::sin(std::f64::consts::PI * t).powi(2);
         let weight = x.iter().zip(&y).map(|(&x, &y)| if has_window { window(x) * window(y) } else { 1.0 }).collect();
         Self { x, y, weight, half: by_short_side(half, half), has_window }
     }

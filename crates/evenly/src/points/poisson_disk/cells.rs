@@ -41,7 +41,7 @@ impl Cells {
         // The nearest places of two cells that stand so far apart.
         let gap = |cells: isize, side: f64| (cells.abs() - 1).max(0) as f64 * side;
         let around = (-height..=height).flat_map(|y| (-width..=width).map(move |x| [x, y]));
-        let around = around.filter(|&[x, y]| [x, y] != [0, 0] && gap(x, side.x).hypot(gap(y, side.y)) < reach);
+        let around = around.filter(|&[x, y]| [x, y] != [0, 0] && libm::hypot(gap(x, side.x), gap(y, side.y)) < reach);
         // The nearest first: their disks cover most.
         let mut around: Vec<[isize; 2]> = around.collect();
         around.sort_by_key(|[x, y]| x * x + y * y);
