@@ -180,6 +180,13 @@ fn only_sharp_corners_have_small_angles_and_that_is_no_fault() {
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.code() == Some(0) && told.contains("forced: "), "{told}");
     shell.ok("mesh l.txt --spacing 0.2 --min-angle 20 -q -o l.obj");
+    // A corner of 30 degrees keeps a demand of 34 from being met, one of 20 not.
+    shell.write("wedge.txt", "0 0\n10 0\n8.660254 5\n");
+    for (demand, is_forced) in [(34, true), (20, false)] {
+        let output = shell.run(&format!("mesh wedge.txt --spacing 1 --min-angle {demand} --force -o wedge.obj"));
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(0) && told.contains("forced: 1 triangle in sharp corners") == is_forced, "{told}");
+    }
 }
 
 #[test]

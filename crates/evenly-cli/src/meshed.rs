@@ -90,10 +90,11 @@ pub struct Measured {
 impl Meshed {
     /// Measures the mesh, and looks where it is not as wished for.
     pub fn measured(&self, wishes: &MeshWishes) -> Measured {
+        let least = wishes.min_angle.unwrap_or(LEAST_ANGLE_DEG);
         Measured {
             quality: mesh_quality(&self.mesh),
-            unmet: unmet(&self.mesh, wishes.min_angle.unwrap_or(LEAST_ANGLE_DEG), wishes.no_obtuse),
-            notes: forced(&self.mesh, LEAST_ANGLE_DEG).into_iter().collect(),
+            unmet: unmet(&self.mesh, least, wishes.no_obtuse),
+            notes: forced(&self.mesh, least).into_iter().collect(),
         }
     }
 }
