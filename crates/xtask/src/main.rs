@@ -12,8 +12,8 @@ usage: cargo xtask CHORE
   python         the Python package's tests alone: in an environment of its own, target/python
   bench [quick] [procrustes | push-pull | starts | comparators | spectrum | density | mesh | surfaces]
                  the table of speed and quality, measured on this machine
-  gallery        draws the pictures of README and manual anew, in docs/gallery
-  reproduce      computes anew what the papers show, as pages in target/reproduction: some five minutes; their figures go to docs/reproduction";
+  gallery        redraws the pictures of README and manual, in docs/gallery
+  reproduce      recomputes what the papers show, as pages in target/reproduction: some five minutes; their figures go to docs/reproduction";
 
 /// Runs the command line.
 const EVENLY: [&str; 5] = ["run", "--release", "--package", "evenly-cli", "--"];

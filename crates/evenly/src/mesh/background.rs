@@ -3,7 +3,7 @@
 //! A coarse mesh without thin triangles has sides as long as the domain's details are far apart (the
 //! local feature size, Ruppert 1995). So its shortest sides say how fine points must stand; from there on
 //! the spacing grows by no more than so much a length. But a detail that stands alone, as a point next to
-//! the border, is left to refinement at the end and to coarsening, which take a small part of the triangles of
+//! the boundary, is left to refinement at the end and to coarsening, which take a small part of the triangles of
 //! a spacing that grows gently.
 
 use std::cmp::Reverse;

@@ -97,7 +97,7 @@ impl Coarsening {
         }
     }
 
-    /// What is left, numbered anew.
+    /// What is left, renumbered.
     pub fn finish(self) -> Coarse {
         let triangles: Vec<[u32; 3]> = self.triangles.into_iter().flatten().collect();
         let source: Vec<u32> = (0..self.positions.len() as u32).filter(|&v| !self.around[v as usize].is_empty()).collect();
@@ -184,7 +184,7 @@ impl Coarsening {
             })
             .collect();
         let is_segment = |u: u32| self.segments.contains_key(&[v, u]) || self.segments.contains_key(&[u, v]);
-        // In the order of the triangles, so that the result is always the same.
+        // In the order of their numbers, so that the result is always the same.
         let mut starts: Vec<u32> = following.keys().copied().filter(|&u| is_segment(u)).collect();
         starts.sort_unstable();
         let is_closed = starts.is_empty();
