@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use evenly::{
-    DistMeshParams, EdgeKind, LloydParams, Mesh, MeshMethod, MeshParams, OptBetaParams, PointSet, Polygon, PushPullParams, RunContext,
+    DistMeshParams, EdgeKind, LloydParams, LocalMethod, Mesh, MeshParams, OptBetaParams, PointSet, Polygon, PushPullParams, RunContext,
     Space, Targets, WellSpacedParams, expected_triangles, jittered, measure, mesh, mesh_quality, opt_beta, poisson_disk_of, push_pull,
     well_spaced,
 };
@@ -47,18 +47,21 @@ fn plain() {
 }
 
 fn methods() {
-    let all = [
-        ("Opt-beta", MeshMethod::OptBeta(OptBetaParams { beta: Some(0.75), iterations: 200, ..OptBetaParams::default() })),
-        ("Lloyd", MeshMethod::Lloyd(LloydParams::default())),
-        ("DistMesh", MeshMethod::DistMesh(DistMeshParams::default())),
+    let all: [(&str, LocalMethod); 3] = [
+        ("Opt-beta", OptBetaParams { beta: Some(0.75), iterations: 200, ..OptBetaParams::default() }.into()),
+        ("Lloyd", LloydParams::default().into()),
+        ("DistMesh", DistMeshParams::default().into()),
     ];
     for (name, rings) in [("L-shape", l_shape()), ("square with a hole", holed_square())] {
         for spacing in SPACINGS {
-            for (method_name, method) in all {
+            for (method_name, method) in &all {
                 let (mut beta, mut least, mut most) = (0f64, 180f64, 0f64);
                 let start = Instant::now();
                 for seed in 0..SEEDS {
-                    let quality = mesh_quality(&meshed(rings.clone(), &MeshParams { seed, method, ..MeshParams::new(spacing) }));
+                    let quality = mesh_quality(&meshed(
+                        rings.clone(),
+                        &MeshParams { seed, method: Some(method.clone()), ..MeshParams::new(spacing) },
+                    ));
                     (beta, least, most) = (beta.max(quality.beta), least.min(quality.min_angle_deg), most.max(quality.max_angle_deg));
                 }
                 let seconds = start.elapsed().as_secs_f64() / SEEDS as f64;

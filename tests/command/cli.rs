@@ -488,12 +488,19 @@ fn help_completions_and_man_page_are_there() {
 fn meshes_are_made_by_other_methods_too() {
     let shell = Shell::new();
     shell.write("area.txt", "0 0\n2 0\n2 1\n0 1\n");
-    for method in ["opt-beta", "lloyd", "distmesh"] {
+    for method in ["opt-beta", "lloyd", "distmesh", "well-spaced", "capacity", "push-pull"] {
         let record =
             json(&shell.ok(&format!("mesh area.txt --spacing 0.1 --method {method} --iterations 20 -q --json --force -o area.obj")));
         assert!(record["quality"]["min_angle_deg"].as_f64().unwrap() > 25.0);
     }
-    for flags in ["--method lloyd --no-obtuse", "--iterations 20", "--method lloyd --iterations 0"] {
+    for flags in
+        ["--no-obtuse", "--method lloyd --no-obtuse", "--beta 0.72 --method well-spaced", "--min-distance 0.85 --coverage-radius 0.68"]
+    {
+        shell.ok(&format!("mesh area.txt --spacing 0.1 --force -o area.obj {flags}"));
+    }
+    for flags in
+        ["--beta 0.7", "--method lloyd --iterations 0", "--method cvt", "--method lloyd --beta 0.7", "--method well-spaced --beta 9"]
+    {
         shell.refused(&format!("mesh area.txt --spacing 0.1 --force -o area.obj {flags}"));
     }
 }
@@ -568,4 +575,16 @@ fn a_run_keeps_within_its_memory() {
         ),
     );
     refused("sample many.gltf -n 10 --memory 100MB -o out.ply", "at most 100.0 MB of memory may be used");
+}
+
+#[test]
+fn methods_are_listed_with_all_that_they_can_be_told() {
+    let shell = Shell::new();
+    let table = shell.ok("methods");
+    assert!(table.contains("| push-pull ") && table.contains("| hexagonal "));
+    assert!(shell.ok("methods well-spaced").contains("--beta"));
+    let registry = json(&shell.ok("methods --json"));
+    assert_eq!(registry[0]["name"], "procrustes");
+    assert_eq!(registry[0]["parameters"][1]["choices"], json("[\"paper\", \"fast\"]"));
+    shell.refused("methods none");
 }

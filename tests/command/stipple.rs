@@ -223,3 +223,19 @@ fn what_is_lighter_than_white_stays_empty_and_ink_that_cannot_be_is_told() {
     let pen = told.rsplit("a pen of ").next().unwrap().trim().replace(' ', "");
     assert!(!said(&format!("--pen {pen}")).contains("darkness"));
 }
+
+#[test]
+fn a_method_is_compared_with_itself_under_other_parameters_and_by_a_density() {
+    let shell = Shell::new();
+    let line = "compare -n 200 --runs 1 --methods white --method push-pull:preset=fast --method push-pull:min-distance=0.9,coverage-radius=0.65 -q";
+    let table = shell.ok(&format!("{line} -o t.csv")) + &shell.read("t.csv");
+    for label in ["white", "push-pull:preset=fast", "push-pull:min-distance=0.9"] {
+        assert!(table.contains(label), "{table}");
+    }
+    picture(&shell, "ramp.png", [60, 30], 1, photograph);
+    let table = shell.ok("compare -n 200 --runs 1 --density ramp.png --size 2,1 -q");
+    assert!(table.contains("push-pull") && table.contains("density_error") && !table.contains("hexagonal"), "{table}");
+    for wrong in ["--method lloyd:beta=1", "--method push-pull:min-distance", "--methods dart --density ramp.png", "--method none"] {
+        shell.refused(&format!("compare -n 200 {wrong}"));
+    }
+}

@@ -83,6 +83,18 @@ fn points_are_sampled() {
         assert_eq!(shell.read("p.csv").lines().count(), 301, "{method}");
     }
     shell.ok("sample torus.off --spacing 0.2 --method poisson-disk -o p.ply");
+    for flags in [
+        "white --density linear:z,3",
+        "poisson-disk --density curvature",
+        "well-spaced --beta 0.8 --density linear:x,2",
+        "lloyd --iterations 9",
+        "capacity",
+    ] {
+        shell.ok(&format!("sample torus.off -n 300 --method {flags} -o p.csv --force"));
+    }
+    for flags in ["cvt", "white --iterations 9", "lloyd --beta 0.7", "poisson-disk --density nothing"] {
+        shell.refused(&format!("sample torus.off -n 300 --method {flags} -o q.csv"));
+    }
     let text = shell.ok("sample torus.off -n 10 --method white -o -");
     assert_eq!(text.lines().filter(|line| !line.starts_with('#')).count(), 10);
 }

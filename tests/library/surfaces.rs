@@ -5,9 +5,9 @@ use crate::solids;
 use std::collections::HashSet;
 
 use evenly::{
-    Error, LloydParams, OptBetaParams, Outcome, RemeshMethod, RemeshParams, Remeshed, Report, RunContext, Surface, SurfaceSampling,
-    SurfaceSizing, TriangleMesh, WellSpacedParams, certificate, remesh, sample_surface, self_intersections, surface_distance,
-    surface_quality, surface_sizes,
+    DistMeshParams, Error, LloydParams, LocalMethod, Method, OptBetaParams, Outcome, RemeshParams, Remeshed, Report, RunContext,
+    SampleParams, Settings, Surface, SurfacePoint, SurfaceSampling, SurfaceSizing, TriangleMesh, WellSpacedParams, certificate, remesh,
+    sample_surface, self_intersections, surface_distance, surface_quality, surface_sizes,
 };
 use proptest::prelude::*;
 
@@ -131,16 +131,16 @@ fn the_number_of_threads_changes_no_bit() {
 #[test]
 fn every_method_runs_and_keeps_the_number() {
     let surface = Surface::new(&sphere(16)).unwrap();
-    let quality = |method: RemeshMethod| {
+    let quality = |method: LocalMethod| {
         let params = RemeshParams { n_points: 500, method, ..RemeshParams::default() };
         let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         assert_eq!(made.mesh.vertices.len(), 500);
         surface_quality(&Surface::new(&made.mesh).unwrap())
     };
-    assert!(quality(RemeshMethod::WellSpaced(WellSpacedParams::default())).beta <= 0.75 + 1e-9);
-    assert!(quality(RemeshMethod::Lloyd(LloydParams::default())).mean_quality > 0.9);
-    assert!(quality(RemeshMethod::OptBeta(OptBetaParams { beta: Some(0.8), iterations: 200, ..OptBetaParams::default() })).beta < 0.9);
-    assert!(quality(RemeshMethod::DistMesh(Default::default())).mean_quality > 0.85);
+    assert!(quality(WellSpacedParams::default().into()).beta <= 0.75 + 1e-9);
+    assert!(quality(LloydParams::default().into()).mean_quality > 0.9);
+    assert!(quality(OptBetaParams { beta: Some(0.8), iterations: 200, ..OptBetaParams::default() }.into()).beta < 0.9);
+    assert!(quality(DistMeshParams::default().into()).mean_quality > 0.85);
 }
 
 /// A sphere with edges 21 times as long at one end as at the other: they stay so, whatever the method.
@@ -150,13 +150,13 @@ fn every_method_keeps_the_wanted_lengths() {
     let sizes = surface_sizes(&surface, &SurfaceSizing::Linear { axis: 2, ratio: 21.0 }, Some(1000)).unwrap();
     let finest = sizes.iter().copied().fold(f64::INFINITY, f64::min);
     for method in [
-        RemeshMethod::default(),
-        RemeshMethod::WellSpaced(WellSpacedParams::default()),
-        RemeshMethod::OptBeta(OptBetaParams { beta: Some(0.6), iterations: 300, ..OptBetaParams::default() }),
-        RemeshMethod::Lloyd(LloydParams { iterations: 300, ..LloydParams::default() }),
-        RemeshMethod::DistMesh(Default::default()),
+        RemeshParams::default().method,
+        WellSpacedParams::default().into(),
+        OptBetaParams { beta: Some(0.6), iterations: 300, ..OptBetaParams::default() }.into(),
+        LloydParams { iterations: 300, ..LloydParams::default() }.into(),
+        DistMeshParams::default().into(),
     ] {
-        let params = RemeshParams { n_points: 1000, method, sizes: sizes.clone(), ..RemeshParams::default() };
+        let params = RemeshParams { n_points: 1000, method: method.clone(), sizes: sizes.clone(), ..RemeshParams::default() };
         let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         let mut by_size = [(0.0, 0.0); 6];
         for t in &made.mesh.triangles {
@@ -175,8 +175,17 @@ fn every_method_keeps_the_wanted_lengths() {
     }
 }
 
+/// Vertices stay where they begin.
+fn staying() -> LocalMethod {
+    Method::named("eliminate").unwrap().on_meshes(&Settings::default(), 0).unwrap()
+}
+
+fn sampled(sampling: SurfaceSampling, seed: u64) -> SampleParams {
+    SampleParams { sampling, sizes: Vec::new(), seed }
+}
+
 fn positions(surface: &Surface, sampling: SurfaceSampling, seed: u64) -> Vec<[f64; 3]> {
-    let (points, _) = sample_surface(surface, sampling, seed, &mut RunContext::default()).unwrap();
+    let (points, _) = sample_surface(surface, &sampled(sampling, seed), &mut RunContext::default()).unwrap();
     points.into_iter().map(|point| point.position).collect()
 }
 
@@ -186,7 +195,7 @@ fn a_mesh_of_given_points_has_these_vertices() {
         let surface = Surface::new(&mesh).unwrap();
         for (n, seed) in [(n, 1), (2 * n, 2)] {
             let points = positions(&surface, SurfaceSampling::White(n), seed);
-            let method = RemeshMethod::Eliminate;
+            let method = staying();
             let params = RemeshParams { n_points: n, method, points, seed, features_deg: None, ..RemeshParams::default() };
             let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
             let bits = |p: &[f64; 3]| p.map(f64::to_bits);
@@ -216,7 +225,7 @@ fn given_points_are_a_start_as_good_as_another() {
     // On a border the given points stay, whatever their gaps.
     let square = Surface::new(&patch(1)).unwrap();
     let grid: Vec<[f64; 3]> = (0..121).map(|k| [f64::from(k / 11) / 10.0, f64::from(k % 11) / 10.0, 0.0]).collect();
-    let params = RemeshParams { n_points: 121, method: RemeshMethod::Eliminate, points: grid, ..RemeshParams::default() };
+    let params = RemeshParams { n_points: 121, method: staying(), points: grid, ..RemeshParams::default() };
     let (made, _) = remesh(&square, &params, &mut RunContext::default()).unwrap();
     assert!(made.mesh.vertices.iter().all(|p| params.points.iter().any(|q| distance(*p, *q) < 1e-12)));
     assert!((surface_quality(&Surface::new(&made.mesh).unwrap()).min_angle_deg - 45.0).abs() < 1e-6);
@@ -224,8 +233,7 @@ fn given_points_are_a_start_as_good_as_another() {
     for mesh in [torus(40, 20), cube(2)] {
         let surface = Surface::new(&mesh).unwrap();
         let (first, _) = remeshed(&surface, 900, 3);
-        let params =
-            RemeshParams { n_points: 900, method: RemeshMethod::Eliminate, points: first.mesh.vertices.clone(), ..RemeshParams::default() };
+        let params = RemeshParams { n_points: 900, method: staying(), points: first.mesh.vertices.clone(), ..RemeshParams::default() };
         let (again, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         for p in &again.mesh.vertices {
             assert!(first.mesh.vertices.iter().any(|q| distance(*p, *q) < 1e-9), "{p:?}");
@@ -297,10 +305,14 @@ fn offsets_and_units_cost_no_digits() {
 fn places_lie_on_the_facets_that_they_name() {
     let mesh = torus(20, 10);
     let surface = Surface::new(&mesh).unwrap();
-    let samplings =
-        [SurfaceSampling::White(300), SurfaceSampling::PoissonDisk(0.2), SurfaceSampling::Eliminate(300), SurfaceSampling::PushPull(300)];
+    let samplings = [
+        SurfaceSampling::White(300),
+        SurfaceSampling::PoissonDisk(0.2),
+        SurfaceSampling::Vertices(300, staying()),
+        SurfaceSampling::Vertices(300, RemeshParams::default().method),
+    ];
     for sampling in samplings {
-        let (points, _) = sample_surface(&surface, sampling, 3, &mut RunContext::default()).unwrap();
+        let (points, _) = sample_surface(&surface, &sampled(sampling.clone(), 3), &mut RunContext::default()).unwrap();
         assert!(points.len() >= 250, "{sampling:?}: {}", points.len());
         for point in points {
             let corners = mesh.triangles[point.facet].map(|v| mesh.vertices[v]);
@@ -312,11 +324,37 @@ fn places_lie_on_the_facets_that_they_name() {
     }
 }
 
+/// Where sizes vary, two points are as far apart as the smaller of theirs, and there is no room for another; independent points are as many as sizes want.
+#[test]
+fn sizes_say_how_far_apart_points_are() {
+    let mut mesh = patch(12);
+    mesh.vertices.iter_mut().for_each(|p| p[2] = 0.0);
+    let surface = Surface::new(&mesh).unwrap();
+    let sizes = surface_sizes(&surface, &SurfaceSizing::Linear { axis: 0, ratio: 3.0 }, None).unwrap();
+    let made = |sampling| {
+        let params = SampleParams { sampling, sizes: sizes.clone(), seed: 2 };
+        sample_surface(&surface, &params, &mut RunContext::default()).unwrap().0
+    };
+    // As many points as spacings of 1 everywhere would leave: the mean of the inverse squares is 1 / 3.
+    let (spacing, scale) = (0.05, 3f64.sqrt());
+    let own = |point: &SurfacePoint| spacing * (1.0 + 2.0 * point.position[0]) / scale;
+    let points = made(SurfaceSampling::PoissonDisk(spacing));
+    for (k, a) in points.iter().enumerate() {
+        assert!(points[..k].iter().all(|b| distance(a.position, b.position) >= 0.99 * own(a).min(own(b))));
+    }
+    let tries = made(SurfaceSampling::White(3000));
+    let has_room = |p: &SurfacePoint| points.iter().all(|q| distance(p.position, q.position) > 1.02 * own(p).min(own(q)));
+    assert_eq!(tries.iter().filter(|p| has_room(p)).count(), 0);
+    // Of the area up to x, the share of the points is the integral of 1 / (1 + 2 x)^2: three quarters by the middle.
+    let below = tries.iter().filter(|p| p.position[0] < 0.5).count() as f64 / 3000.0;
+    assert!((below - 0.75).abs() < 0.03, "{below}");
+}
+
 #[test]
 fn poisson_disks_are_maximal_and_do_not_reach_through_a_sheet() {
     let surface = Surface::new(&sheet()).unwrap();
     let spacing = 0.15;
-    let (points, _) = sample_surface(&surface, SurfaceSampling::PoissonDisk(spacing), 1, &mut RunContext::default()).unwrap();
+    let (points, _) = sample_surface(&surface, &sampled(SurfaceSampling::PoissonDisk(spacing), 1), &mut RunContext::default()).unwrap();
     // Both sides are nearer to each other than the spacing, and still full: along each side no two points are too near.
     let sides = [0.0, 0.05].map(|z| points.iter().filter(|p| (p.position[2] - z).abs() < 1e-9).map(|p| p.position).collect::<Vec<_>>());
     for side in &sides {
@@ -326,7 +364,7 @@ fn poisson_disks_are_maximal_and_do_not_reach_through_a_sheet() {
         }
     }
     // No place of a side has room for another.
-    let (tries, _) = sample_surface(&surface, SurfaceSampling::White(4000), 9, &mut RunContext::default()).unwrap();
+    let (tries, _) = sample_surface(&surface, &sampled(SurfaceSampling::White(4000), 9), &mut RunContext::default()).unwrap();
     for p in tries {
         assert!(points.iter().any(|q| distance(p.position, q.position) < spacing * 1.01), "{:?}", p.position);
     }
@@ -424,7 +462,7 @@ fn near_corners_are_told_and_welded() {
     // Points need no mesh that hangs together, nor one of the surface's genus.
     let handles = Surface::new(&genus_3()).unwrap();
     for (surface, n) in [&open, &handles].into_iter().flat_map(|surface| [1, 2, 10, 300].map(|n| (surface, n))) {
-        for sampling in [SurfaceSampling::PushPull(n), SurfaceSampling::Eliminate(n)] {
+        for sampling in [SurfaceSampling::Vertices(n, RemeshParams::default().method), SurfaceSampling::Vertices(n, staying())] {
             let places: HashSet<_> = positions(surface, sampling, 5).into_iter().map(|p| p.map(f64::to_bits)).collect();
             assert_eq!(places.len(), n);
         }
@@ -493,7 +531,7 @@ proptest! {
             let params = RemeshParams {
                 n_points,
                 points,
-                method: RemeshMethod::PushPull(evenly::PushPullParams { max_passes: Some(20), ..evenly::PushPullParams::default() }),
+                method: evenly::PushPullParams { max_passes: Some(20), ..evenly::PushPullParams::default() }.into(),
                 ..RemeshParams::default()
             };
             if let Ok((made, _)) = remesh(&surface, &params, &mut RunContext::default()) {

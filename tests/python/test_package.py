@@ -5,9 +5,11 @@ import inspect
 import pkgutil
 import subprocess
 import sys
+import typing
 
 import evenly
 import pytest
+from evenly import _methods
 
 MODULES = [name for _, name, _ in pkgutil.iter_modules(evenly.__path__, "evenly.") if not name.endswith("._evenly")]
 
@@ -44,3 +46,17 @@ def test_the_command_is_there():
     done = subprocess.run([sys.executable, "-m", "evenly", "--version"], capture_output=True, text=True, check=False)
     assert done.stdout == f"evenly {evenly.__version__}\n"
     assert subprocess.run([sys.executable, "-m", "evenly", "nonsense"], capture_output=True, check=False).returncode == 2
+
+
+def test_signatures_know_what_the_registry_knows():
+    methods = evenly.methods().values()
+    options = set(_methods.MethodOptions.__annotations__)
+    assert options == {name for method in methods for name in method.parameters}
+    choices = {name: parameter.choices for method in methods for name, parameter in method.parameters.items() if parameter.kind == "choice"}
+    hints = typing.get_type_hints(_methods.MethodOptions)
+    assert {name: set(typing.get_args(typing.get_args(hints[name])[0])) for name in choices} == {name: set(each) for name, each in choices.items()}
+    for alias, job in ((_methods.Optimizer, "optimize"), (_methods.OnMeshes, "remesh"), (_methods.OnMeshes, "mesh"), (_methods.OnSurfaces, "sample")):
+        names = {name for each in typing.get_args(alias) for name in (typing.get_args(each) or (each,))}
+        assert names == {method.name for method in methods if job in method.jobs}, job
+    with pytest.raises(TypeError, match="unexpected keyword argument 'colour'"):
+        evenly.generate(10, colour=1)

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Command as Clap, CommandFactory as _, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
+use evenly::{Method, Settings};
 use evenly_io::Format;
 
 use crate::measuring_args::{Analyze, Bilateral, Reproduce, Zoneplate};
 use crate::memory;
 use crate::mesh_args::Mesh;
-use crate::method::{Method, parser, with_methods};
-use crate::method_args::{OptimizerArgs, StartArgs};
+use crate::method::{Any, MethodArgs, Optimizers, Starts, Told, parse_told, parser};
 use crate::parse::{parse_count, parse_format};
 use crate::remesh_args::{Remesh, Sample};
 use crate::shared_args::{DensityArgs, DrawArg, FixedArg, LongArgs, MetricArg, SpaceArgs};
@@ -63,6 +63,8 @@ pub enum Command {
     Zoneplate(Zoneplate),
     /// Filter a picture bilaterally with few pixels, chosen by points, and measure the error
     Bilateral(Bilateral),
+    /// List the methods, and what each can be told
+    Methods(Methods),
     /// Compute a paper's tables and figures anew, beside the printed numbers
     Reproduce(Reproduce),
     /// Print a completion script for a shell
@@ -81,12 +83,12 @@ pub struct Generate {
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_points: Option<usize>,
     /// How they are made: by an optimiser, or as one of its starts
-    #[arg(short, long, default_value = "procrustes", value_parser = parser(|method| method != Method::Warp))]
+    #[arg(short, long, default_value_t = Method::default(), value_parser = parser::<Any>())]
     pub method: Method,
     /// What an optimiser starts from [default: white; opt-beta: poisson-disk]
     ///
     /// In a polygon, where there is no warp, jittered; for opt-beta and by a density eliminate.
-    #[arg(long, value_parser = parser(Method::is_start), hide_possible_values = true)]
+    #[arg(long, value_parser = parser::<Starts>(), hide_possible_values = true)]
     pub start: Option<Method>,
     /// The same seed gives the same points
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
@@ -100,9 +102,11 @@ pub struct Generate {
     #[command(flatten)]
     pub fixed: FixedArg,
     #[command(flatten)]
-    pub optimizer: OptimizerArgs,
+    pub warp: WarpArg,
     #[command(flatten)]
-    pub starts: StartArgs,
+    pub optimizer: MethodArgs<Optimizers>,
+    #[command(flatten)]
+    pub starts: MethodArgs<Starts>,
     #[command(flatten)]
     pub run: RunArgs,
 }
@@ -113,7 +117,7 @@ pub struct Optimize {
     /// Points as .txt, .csv, .npy or .geojson; - is stdin
     pub input: PathBuf,
     /// How they are improved
-    #[arg(short, long, default_value = "procrustes", value_parser = parser(|method| method.is_optimizer() || method == Method::Warp))]
+    #[arg(short, long, default_value_t = Method::default(), value_parser = parser::<Optimizers>())]
     pub method: Method,
     /// The same seed gives the same points; procrustes, opt-beta, cvt and farthest-point use none
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
@@ -127,14 +131,16 @@ pub struct Optimize {
     #[command(flatten)]
     pub fixed: FixedArg,
     #[command(flatten)]
-    pub optimizer: OptimizerArgs,
+    pub warp: WarpArg,
+    #[command(flatten)]
+    pub optimizer: MethodArgs<Optimizers>,
     #[command(flatten)]
     pub run: RunArgs,
 }
 
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html\n\nTargets that are missed are no failure here: the table has the share of runs that reached them."
+    after_help = "Example:\n  evenly compare -n 1000 --methods lloyd,cvt,well-spaced,push-pull --runs 5 -o table.html\n  evenly compare -n 1000 --method push-pull:preset=fast --method push-pull:preset=tough\n\nTargets that are missed are no failure here: the table has the share of runs that reached them."
 )]
 pub struct Compare {
     /// Points that all begin with, as .txt, .csv, .npy or .geojson; - is stdin [default: new ones for each run, from --start]
@@ -143,13 +149,16 @@ pub struct Compare {
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "input")]
     pub n_points: Option<usize>,
     /// What is compared, optimisers and starts [default: all]
-    #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = parser(|method| method != Method::Warp), hide_possible_values = true)]
+    #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = parser::<Any>(), hide_possible_values = true)]
     pub methods: Vec<Method>,
+    /// One more, and what it alone is told; may be given several times
+    #[arg(short, long = "method", value_name = "METHOD[:FLAG=VALUE,...]", value_parser = parse_told)]
+    pub told: Vec<Told>,
     /// How often, each time with the next seed
     #[arg(long, value_name = "K", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     pub runs: u16,
     /// What all optimisers start from, without an input [default: white; in a polygon jittered]
-    #[arg(long, value_parser = parser(Method::is_start), hide_possible_values = true, conflicts_with = "input")]
+    #[arg(long, value_parser = parser::<Starts>(), hide_possible_values = true, conflicts_with = "input")]
     pub start: Option<Method>,
     /// The first run's seed
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
@@ -159,12 +168,39 @@ pub struct Compare {
     #[command(flatten)]
     pub metric: MetricArg,
     #[command(flatten)]
-    pub optimizer: OptimizerArgs,
+    pub density: DensityArgs,
+    #[command(flatten)]
+    pub warp: WarpArg,
+    #[command(flatten)]
+    pub optimizer: MethodArgs<Optimizers>,
     /// Where the table goes: .md .csv (a line a run) .json (all of it) .html (with pictures) [default: stdout, as plain text]
     #[arg(short, long, value_name = "OUT", help_heading = "Output")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
     pub run: LongArgs,
+}
+
+impl Generate {
+    /// What the method is told.
+    pub fn told(&self) -> Settings {
+        if self.method.is_optimizer() { self.optimizer.of(self.method) } else { self.starts.of(self.method) }
+    }
+}
+
+#[derive(Args)]
+pub struct Methods {
+    /// One method, with its parameters [default: all, in a table]
+    pub name: Option<String>,
+    /// All methods with all parameters, as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args)]
+pub struct WarpArg {
+    /// Take points as they are: not evened out first
+    #[arg(long)]
+    pub no_warp: bool,
 }
 
 #[derive(Args)]
@@ -197,9 +233,4 @@ pub struct RunArgs {
     /// Say more
     #[arg(short, long)]
     pub verbose: bool,
-}
-
-/// The whole command, with what the table of methods adds to the help.
-pub fn command() -> Clap {
-    Cli::command().mut_subcommand("generate", with_methods).mut_subcommand("optimize", with_methods).mut_subcommand("compare", with_methods)
 }

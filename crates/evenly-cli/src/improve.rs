@@ -1,15 +1,13 @@
 //! What is done before and after an optimiser, whatever it is: points are evened out first where that suits it, and what came in is kept where it was nearer to the targets.
 
-use evenly::{Outcome, PointSet, Report, warp_isotropic};
-
-use crate::optimizer::Optimizer;
+use evenly::{Optimizer, Outcome, PointSet, Report, warp_isotropic};
 
 /// What evens out these points first, if anything.
 pub fn warp_for(points: &PointSet, optimizer: &dyn Optimizer, is_wanted: bool) -> Option<fn(&mut PointSet)> {
     // By a density every method begins with points that follow it.
     let by_density = (!points.density().is_uniform()).then_some(warp_isotropic as fn(&mut PointSet));
     let can_warp = is_wanted && points.n_points() >= 3 && points.space().region().is_none();
-    optimizer.warp().or(by_density).filter(|_| can_warp)
+    optimizer.method().warp().or(by_density).filter(|_| can_warp)
 }
 
 /// Said where the points that came in are kept.

@@ -13,8 +13,6 @@ mod memory;
 mod mesh_args;
 pub mod meshed;
 mod method;
-mod method_args;
-mod optimizer;
 mod page;
 mod parse;
 mod record;
@@ -37,7 +35,7 @@ pub mod wishes;
 use std::ffi::OsString;
 
 use clap::error::ErrorKind;
-use clap::{FromArgMatches as _, ValueEnum as _};
+use clap::{CommandFactory as _, FromArgMatches as _, ValueEnum as _};
 use evenly::Density;
 use evenly_io::Draw;
 
@@ -53,24 +51,24 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
     record::keep_command(&words);
     interrupt::listen();
-    let parsed = args::command().try_get_matches_from(words).and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)));
-    let (cli, matches) = match parsed {
+    let parsed = Cli::command().try_get_matches_from(words).and_then(|matches| Cli::from_arg_matches(&matches));
+    let cli = match parsed {
         Ok(parsed) => parsed,
         Err(error) => return usage(&error),
     };
     memory::keep_within(cli.memory);
-    let flags = matches.subcommand().map(|(_, flags)| flags).unwrap_or(&matches);
     let done = match &cli.command {
-        Command::Generate(args) => commands::generate::run(args, flags),
-        Command::Optimize(args) => commands::optimize::run(args, flags),
+        Command::Generate(args) => commands::generate::run(args),
+        Command::Optimize(args) => commands::optimize::run(args),
         Command::Analyze(args) => commands::analyze::run(args),
         Command::Stipple(args) => commands::stipple::run(args),
         Command::Mesh(args) => commands::mesh::run(args),
         Command::Remesh(args) => commands::remesh::run(args),
         Command::Sample(args) => commands::sample::run(args),
-        Command::Compare(args) => commands::compare::run(args, flags),
+        Command::Compare(args) => commands::compare::run(args),
         Command::Zoneplate(args) => commands::zoneplate::run(args),
         Command::Bilateral(args) => commands::bilateral::run(args),
+        Command::Methods(args) => commands::methods::run(args),
         Command::Reproduce(args) => commands::reproduce::run(args),
         Command::Completions { shell } => commands::shell::completions(*shell),
         Command::Man => commands::shell::man(),
@@ -79,6 +77,11 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         say(format_args!("error: {error:#}"));
         BAD_INPUT
     })
+}
+
+/// All methods and what they can be told, as JSON.
+pub fn methods() -> serde_json::Value {
+    commands::methods::registry()
 }
 
 /// The density that `--density` would have of these words.

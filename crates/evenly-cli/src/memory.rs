@@ -9,10 +9,10 @@ use std::time::Duration;
 
 use anyhow::bail;
 use cap::Cap;
+use evenly::Method;
 use evenly_io::{bytes_told, discard_temporaries, limit_memory, memory_limit};
 
 use crate::BAD_INPUT;
-use crate::method::Method;
 use crate::talk::say;
 
 /// Counts what is in use.
@@ -58,7 +58,7 @@ pub fn keep_within(bytes: Option<u64>) {
 
 /// That so many points by a method fit.
 pub fn require_points(n_points: usize, method: Method) -> anyhow::Result<()> {
-    let each = if method.is_optimizer() || method == Method::Eliminate { OF_MOVING } else { OF_PUTTING };
+    let each = if method.holds_much() { OF_MOVING } else { OF_PUTTING };
     require(format_args!("{n_points} points by {}", method.name()), n_points, each)
 }
 

@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use anyhow::bail;
-use clap::{ArgGroup, Args, ValueEnum};
-use evenly::{DistMeshParams, LloydParams, MeshMethod, OptBetaParams};
+use clap::{ArgGroup, Args};
+use evenly::{LocalMethod, MeshParams, Method, Setting, angle_bounds_deg};
 use evenly_io::MeshFormat;
 
+use crate::method::{MethodArgs, OnMeshes, by_flag, parser};
 use crate::parse::parse_count;
-use crate::remeshed::OPT_BETA_SWEEPS;
 use crate::shared_args::{DensityArgs, LongArgs};
 
 #[derive(Args)]
@@ -77,11 +76,10 @@ pub struct MeshWishes {
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     /// How points find their places: on the border they move along it
-    #[arg(short, long, value_enum, default_value_t = Rule::PushPull, help_heading = "Method")]
-    pub method: Rule,
-    /// Passes of methods other than push-pull [default: lloyd 100, the others 200]
-    #[arg(long, value_name = "N", value_parser = parse_count, help_heading = "Method")]
-    pub iterations: Option<usize>,
+    #[arg(short, long, default_value_t = push_pull(), value_parser = parser::<OnMeshes>(), help_heading = "Method")]
+    pub method: Method,
+    #[command(flatten)]
+    pub method_args: MethodArgs<OnMeshes>,
     /// Let edges grow away from the border, by so much a length: 0.2 is gentle, 1 the most
     #[arg(long, value_name = "G", allow_negative_numbers = true, help_heading = "Size")]
     pub grade: Option<f64>,
@@ -98,40 +96,35 @@ pub struct MeshWishes {
     pub no_obtuse: bool,
 }
 
-/// How points find their places.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Rule {
-    /// Push-pull optimization to beta 0.74, with points added and removed (Ahmed, Guo, Yan et al.)
-    PushPull,
-    /// Opt-beta: the least ratio of each cell by itself (Ebeida et al.)
-    OptBeta,
-    /// Lloyd's method: to the centroids of the Voronoi cells
-    Lloyd,
-    /// Springs between neighbours (Persson and Strang)
-    #[value(name = "distmesh")]
-    DistMesh,
-}
+/// What sets the lengths that push-pull aims at.
+const LENGTHS: [&str; 3] = ["preset", "min_distance", "coverage_radius"];
 
 impl MeshWishes {
-    /// The method with its parameters.
-    pub fn mesh_method(&self) -> anyhow::Result<MeshMethod> {
-        let iterations = |default: usize| self.iterations.unwrap_or(default);
-        let (lloyd, springs) = (LloydParams::default(), DistMeshParams::default());
-        Ok(match self.method {
-            Rule::PushPull if self.iterations.is_some() => {
-                bail!("--iterations needs another --method: push-pull goes on until points rest")
+    /// The method with its parameters; `None` where nothing is said of push-pull: its targets then suit the demands.
+    pub fn mesh_method(&self) -> anyhow::Result<Option<LocalMethod>> {
+        self.method_args.refuse_others(&[self.method])?;
+        let mut told = self.method_args.of(self.method);
+        if self.method == push_pull() && !LENGTHS.iter().any(|name| told.get(name).is_some()) {
+            if told.names().next().is_none() {
+                return Ok(None);
             }
-            Rule::PushPull => MeshMethod::PushPull,
-            Rule::OptBeta => {
-                let params = OptBetaParams { beta: Some(0.75), ..OptBetaParams::default() };
-                MeshMethod::OptBeta(OptBetaParams { iterations: iterations(OPT_BETA_SWEEPS), ..params })
-            }
-            Rule::Lloyd => MeshMethod::Lloyd(LloydParams { iterations: iterations(lloyd.iterations), seed: self.seed, ..lloyd }),
-            Rule::DistMesh => {
-                MeshMethod::DistMesh(DistMeshParams { iterations: iterations(springs.iterations), seed: self.seed, ..springs })
-            }
-        })
+            told = MeshParams::usual_targets(self.no_obtuse).overlaid(&told);
+        }
+        self.method.on_meshes(&told, self.seed).map(Some).map_err(by_flag)
     }
+
+    /// The smallest angle that targets imply that were given, in degrees.
+    pub fn implied_angle_deg(&self, method: Option<&LocalMethod>) -> Option<f64> {
+        let told = self.method_args.of(self.method);
+        let of_lengths = method?.beta().filter(|_| LENGTHS.iter().any(|name| told.get(name).is_some()));
+        let beta = if let Some(Setting::Number(beta)) = told.get("beta") { Some(*beta) } else { of_lengths };
+        angle_bounds_deg(beta?).map(|[least, _]| least)
+    }
+}
+
+/// The method of meshes where none is asked for.
+pub fn push_pull() -> Method {
+    Method::named("push-pull").unwrap_or_default()
 }
 
 pub fn parse_mesh_format(text: &str) -> Result<MeshFormat, String> {

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use anyhow::bail;
 use evenly::{
     Density, Error, Mesh, MeshParams, MeshQuality, MeshRegion, Outcome, Polygon, Report, RunContext, expected_triangles, mesh,
     mesh_quality, triangle_count, triangle_side,
@@ -11,7 +10,7 @@ use serde_json::Value;
 
 use crate::details;
 use crate::measured;
-use crate::mesh_args::{MeshWishes, Rule};
+use crate::mesh_args::MeshWishes;
 use crate::parse::read_words;
 use crate::sizes::Sizes;
 use crate::unmet::{Unmet, forced, unmet};
@@ -75,6 +74,8 @@ pub struct Meshed {
     pub report: Report,
     /// What was asked for.
     pub parameters: Value,
+    /// The smallest angle that the method's targets imply, if they were asked for.
+    implied_angle_deg: Option<f64>,
 }
 
 /// The measures of a mesh.
@@ -90,7 +91,7 @@ pub struct Measured {
 impl Meshed {
     /// Measures the mesh, and looks where it is not as wished for.
     pub fn measured(&self, wishes: &MeshWishes) -> Measured {
-        let least = wishes.min_angle.unwrap_or(LEAST_ANGLE_DEG);
+        let least = wishes.min_angle.or(self.implied_angle_deg).unwrap_or(LEAST_ANGLE_DEG);
         Measured {
             quality: mesh_quality(&self.mesh),
             unmet: unmet(&self.mesh, least, wishes.no_obtuse),
@@ -105,9 +106,7 @@ impl Meshed {
 /// As [`mesh`], with the names of files and flags.
 pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given, run: &mut RunContext) -> anyhow::Result<Meshed> {
     let method = wishes.mesh_method()?;
-    if wishes.no_obtuse && wishes.method != Rule::PushPull {
-        bail!("--no-obtuse needs --method push-pull");
-    }
+    let implied_angle_deg = wishes.implied_angle_deg(method.as_ref());
     let of_triangles = |n: usize| triangle_side(polygon.area(), n as f64);
     let mut spacing = wishes.spacing.unwrap_or_else(|| of_triangles(wishes.n_triangles.unwrap_or(1)));
     let n_repairs = polygon.repairs().len();
@@ -136,7 +135,7 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
             // As far as it grows.
             (Some(_), None) => Some(spacing.max(polygon.area().sqrt())),
         },
-        method,
+        method: method.clone(),
         is_non_obtuse: wishes.no_obtuse,
         min_angle_deg: wishes.min_angle,
         fixed: fixed.clone(),
@@ -167,7 +166,7 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
         let wanted = wishes.n_triangles.map_or_else(|| triangle_count(polygon.area(), spacing), |n| n as f64);
         report.notes.extend(details::told(polygon, &params, mesh.triangles.len() - mesh.n_in_corners, wanted));
     }
-    Ok(Meshed { parameters: serde_json::json!(params), mesh, report })
+    Ok(Meshed { parameters: serde_json::json!(params), mesh, report, implied_angle_deg })
 }
 
 /// Wishes in the command line's words, as `--spacing=0.1`.

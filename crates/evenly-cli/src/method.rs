@@ -1,197 +1,410 @@
-//! The methods, and which flags each of them takes.
+//! The registry on the command line: methods as values, and their parameters as flags, whichever methods have them.
 
-use anyhow::bail;
-use clap::builder::{PossibleValuesParser, StyledStr, TypedValueParser};
+use std::marker::PhantomData;
+
+use anyhow::{anyhow, bail};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::parser::ValueSource;
-use clap::{ArgMatches, Command, ValueEnum};
-use evenly::Space;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
+use evenly::{About, Error, Group, Method, ParameterKind, Setting, Settings, Space};
 
-use Method::{
-    Capacity, Cvt, Dart, DistMesh, Eliminate, FarthestPoint, Hexagonal, Jittered, Lloyd, OptBeta, PoissonDisk, Procrustes, PushPull,
-    WellSpaced, White,
-};
+/// The two that make points on a surface without a mesh of them.
+pub const WHITE: &str = "white";
+pub const POISSON_DISK: &str = "poisson-disk";
 
-/// How points are made, or made better.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Method {
-    /// Procrustes analysis (Papazov and Hege)
-    Procrustes,
-    /// Push-pull optimization (Ahmed, Guo, Yan et al.)
-    PushPull,
-    /// Low beta, the ratio of the largest gap to the smallest distance (Ebeida et al.)
-    WellSpaced,
-    /// Opt-beta: the least ratio of each cell by itself (Ebeida et al.)
-    OptBeta,
-    /// Lloyd's method: to the centroids of the Voronoi cells
-    Lloyd,
-    /// Lloyd's energy by a quasi-Newton method (Liu et al.)
-    Cvt,
-    /// Farthest-point optimization (Schloemer et al.)
-    FarthestPoint,
-    /// Springs between neighbours (Persson and Strang)
-    #[value(name = "distmesh")]
-    DistMesh,
-    /// Voronoi cells of equal area, and nothing else (Balzer et al.)
-    Capacity,
-    /// Maximal Poisson-disk sampling (Ebeida et al.)
-    PoissonDisk,
-    /// Dart throwing (Cook)
-    Dart,
-    /// Weighted sample elimination (Yuksel), in progressive order
-    Eliminate,
-    /// Independent uniform points
-    White,
-    /// One point in each cell of a grid, whose order outlives an optimiser as peaks in the spectrum
-    Jittered,
-    /// The hexagonal lattice
-    Hexagonal,
-    /// Even out long density waves, and nothing else
-    Warp,
+/// Methods among which a flag or a command chooses.
+pub trait Offered {
+    fn is_offered(method: Method) -> bool;
+
+    fn all() -> Vec<Method> {
+        Method::all().filter(|&method| Self::is_offered(method)).collect()
+    }
 }
 
-const OPTIMIZERS: &[Method] = &[Procrustes, PushPull, WellSpaced, OptBeta, Lloyd, Cvt, FarthestPoint, DistMesh, Capacity];
+/// Every method.
+pub struct Any;
+/// Those that improve points.
+pub struct Optimizers;
+/// Those that make points.
+pub struct Starts;
+/// Those that follow a density.
+pub struct ByDensity;
+/// Of these, those that improve points.
+pub struct OptimizersByDensity;
+/// Those that move the vertices of meshes.
+pub struct OnMeshes;
+/// Those that spread points over surfaces.
+pub struct OnSurfaces;
 
-/// Those that know a density.
-const BY_DENSITY: &[Method] = &[Procrustes, PushPull, WellSpaced, Lloyd, DistMesh, Capacity, PoissonDisk, Eliminate, White, Method::Warp];
+impl Offered for Any {
+    fn is_offered(_: Method) -> bool {
+        true
+    }
+}
 
-/// The flags that not every method takes, by their ids.
-const FLAGS: &[(&str, &[Method])] = &[
-    ("start", OPTIMIZERS),
-    ("density", BY_DENSITY),
-    ("iterations", OPTIMIZERS),
-    ("no_warp", &[Procrustes, PushPull, WellSpaced, Lloyd, DistMesh, Capacity]),
-    ("mode", &[Procrustes]),
-    ("side", &[Procrustes]),
-    ("tolerance", &[Procrustes, Lloyd, Cvt, DistMesh]),
-    ("preset", &[PushPull]),
-    ("min_distance", &[PushPull, FarthestPoint]),
-    ("coverage_radius", &[PushPull]),
-    ("capacity_tolerance", &[PushPull, Capacity]),
-    ("relaxation", &[PushPull, FarthestPoint]),
-    ("local", &[FarthestPoint]),
-    ("schedule", &[PushPull]),
-    ("beta", &[WellSpaced, OptBeta]),
-    ("damping", &[OptBeta]),
-    ("spacing", &[PoissonDisk, Dart]),
-    ("coverage", &[PoissonDisk]),
-    ("visible", &[PoissonDisk]),
-    ("tries", &[Dart]),
-];
+impl Offered for Optimizers {
+    fn is_offered(method: Method) -> bool {
+        method.is_optimizer()
+    }
+}
 
-impl Method {
-    pub fn name(self) -> String {
-        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+impl Offered for Starts {
+    fn is_offered(method: Method) -> bool {
+        method.is_start()
+    }
+}
+
+impl Offered for ByDensity {
+    fn is_offered(method: Method) -> bool {
+        method.knows_density()
+    }
+}
+
+impl Offered for OnMeshes {
+    fn is_offered(method: Method) -> bool {
+        method.is_local()
+    }
+}
+
+impl Offered for OnSurfaces {
+    fn is_offered(method: Method) -> bool {
+        method.is_local() || [WHITE, POISSON_DISK].contains(&method.name())
+    }
+}
+
+impl Offered for OptimizersByDensity {
+    fn is_offered(method: Method) -> bool {
+        method.knows_density() && method.is_optimizer()
+    }
+}
+
+/// Reads the name of a method that is offered.
+pub fn parser<O: Offered>() -> impl TypedValueParser<Value = Method> {
+    let offered = O::all().into_iter().map(|method| PossibleValue::new(method.name()).help(method.title()));
+    PossibleValuesParser::new(offered).try_map(|name| Method::named(&name).ok_or("there is no such method"))
+}
+
+/// What methods are told: a flag for each parameter that one of those offered has.
+pub struct MethodArgs<O> {
+    settings: Settings,
+    offered: PhantomData<O>,
+}
+
+impl<O: Offered> MethodArgs<O> {
+    /// What a method is told of it.
+    pub fn of(&self, method: Method) -> Settings {
+        method.own(&self.settings)
     }
 
-    /// Whether it improves points.
-    pub fn is_optimizer(self) -> bool {
-        OPTIMIZERS.contains(&self)
+    /// Refuses parameters that none of the methods has.
+    pub fn refuse_others(&self, methods: &[Method]) -> anyhow::Result<()> {
+        let is_taken = |name: &str| methods.iter().any(|method| method.takes(name));
+        match self.settings.names().find(|name| !is_taken(name)) {
+            Some(name) => bail!("--{} is for --method {}", flag(name), names(&takers::<Any>(name))),
+            None => Ok(()),
+        }
     }
+}
 
-    /// Whether it makes points that an optimiser can begin with.
-    pub fn is_start(self) -> bool {
-        [PoissonDisk, Dart, Eliminate, White, Jittered, Hexagonal].contains(&self)
-    }
-
-    /// What it starts from, as an optimiser, if nothing else is asked for: in a polygon, where no warp takes long waves out, what has none.
-    pub fn default_start(self, space: &Space, has_density: bool) -> Self {
-        match (self, space) {
-            (method, Space::Polygon(_)) => {
-                if has_density || method == OptBeta {
-                    Eliminate
-                } else {
-                    Jittered
-                }
+impl<O: Offered> FromArgMatches for MethodArgs<O> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut settings = Settings::default();
+        for (about, _) in parameters::<O>() {
+            let is_given = matches.value_source(about.name) == Some(ValueSource::CommandLine);
+            let value = if about.kind == ParameterKind::Flag { Some(&Setting::On) } else { matches.get_one::<Setting>(about.name) };
+            if let Some(value) = value.filter(|_| is_given) {
+                settings.set(about.name, value.clone());
             }
-            (OptBeta, _) => PoissonDisk,
-            _ => White,
         }
+        Ok(Self { settings, offered: PhantomData })
     }
 
-    /// All that make points there, optimisers, then starts.
-    pub fn all_in(space: &Space) -> Vec<Self> {
-        let is_there = |method: &Self| *method != Self::Warp && (*method != Hexagonal || space.region().is_none());
-        Self::value_variants().iter().copied().filter(is_there).collect()
-    }
-}
-
-/// Refuses flags that none of these methods takes.
-pub fn refuse_others_flags(methods: &[Method], matches: &ArgMatches) -> anyhow::Result<()> {
-    let is_given = |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
-    let is_taken = |takers: &[Method]| methods.iter().any(|method| takers.contains(method));
-    match FLAGS.iter().find(|(id, takers)| is_given(id) && !is_taken(takers)) {
-        Some((id, takers)) => bail!("--{} is for --method {}", id.replace('_', "-"), names(takers)),
-        None => Ok(()),
-    }
-}
-
-/// Reads those methods that are offered.
-pub fn parser(is_offered: fn(Method) -> bool) -> impl TypedValueParser<Value = Method> {
-    let offered = Method::value_variants().iter().filter(move |&&method| is_offered(method));
-    PossibleValuesParser::new(offered.filter_map(Method::to_possible_value)).try_map(|name| Method::from_str(&name, false))
-}
-
-/// The command with each flag's methods in its help.
-pub fn with_methods(command: Command) -> Command {
-    command.mut_args(|arg| {
-        let own = FLAGS.iter().find(|(id, methods)| arg.get_id() == id && methods.len() < OPTIMIZERS.len());
-        let Some((_, methods)) = own else { return arg };
-        let own = |help: Option<&StyledStr>| format!("{}: {}", names(methods), help.map(ToString::to_string).unwrap_or_default());
-        let help = own(arg.get_help());
-        match arg.get_long_help() {
-            Some(long) => arg.clone().help(help).long_help(own(Some(long))),
-            None => arg.help(help),
-        }
-    })
-}
-
-fn names(methods: &[Method]) -> String {
-    let names: Vec<String> = methods.iter().map(|method| method.name()).collect();
-    match &names[..] {
-        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
-        _ => names.concat(),
-    }
-}
-
-impl Method {
-    pub fn knows_density(self) -> bool {
-        BY_DENSITY.contains(&self)
-    }
-
-    /// Refuses a method that knows no density, where there is one.
-    pub fn refuse_density(self) -> anyhow::Result<()> {
-        if !self.knows_density() {
-            bail!("--density is for --method {}", names(BY_DENSITY));
-        }
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
         Ok(())
     }
+}
 
-    /// Refuses a start that knows no density, where there is one.
-    pub fn require_density(self) -> anyhow::Result<()> {
-        let known: Vec<Self> = BY_DENSITY.iter().copied().filter(|method| method.is_start()).collect();
-        if !known.contains(&self) {
-            bail!("--start {} goes by no density; take {}", self.name(), names(&known));
-        }
-        Ok(())
+impl<O: Offered> Args for MethodArgs<O> {
+    fn augment_args(command: Command) -> Command {
+        command.args(parameters::<O>().into_iter().map(|(about, takers)| argument(about, &help::<O>(&takers))))
     }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+/// A parameter's flag.
+fn argument(about: About, help: &Help) -> Arg {
+    let heading = match about.group {
+        Group::Targets => "Targets",
+        Group::Steps => "Steps",
+        Group::Starts => "Starts",
+    };
+    let arg = Arg::new(about.name).long(flag(about.name)).help(help.short.clone()).help_heading(heading);
+    let arg = arg.long_help(help.long.clone()).hide_short_help(about.is_rare);
+    // The one that is given most.
+    let arg = if about.name == "iterations" { arg.short('i') } else { arg };
+    match about.kind {
+        ParameterKind::Flag => arg.action(ArgAction::SetTrue),
+        ParameterKind::Choice(choices) => {
+            let values = choices.iter().map(|choice| PossibleValue::new(choice.name).help(choice.doc));
+            arg.value_name(about.name.to_uppercase()).value_parser(PossibleValuesParser::new(values).map(Setting::Choice))
+        }
+        ParameterKind::Number => with_value(arg, about, ValueParser::new(|text: &str| number(text).map(Setting::Number))),
+        ParameterKind::Target => with_value(arg, about, ValueParser::new(target)),
+        ParameterKind::Count => with_value(arg, about, ValueParser::new(count)),
+    }
+}
+
+fn with_value(arg: Arg, about: About, parser: ValueParser) -> Arg {
+    arg.value_name(about.symbol).value_parser(parser).allow_negative_numbers(true)
+}
+
+/// A method and what it alone is told, as `push-pull:min-distance=0.8,coverage-radius=0.65`.
+#[derive(Clone)]
+pub struct Told {
+    /// As it was written.
+    pub label: String,
+    pub method: Method,
+    pub settings: Settings,
+}
+
+impl From<Method> for Told {
+    fn from(method: Method) -> Self {
+        Self { label: method.name().into(), method, settings: Settings::default() }
+    }
+}
+
+/// Reads a method and what it alone is told.
+pub fn parse_told(text: &str) -> Result<Told, String> {
+    let (name, words) = text.split_once(':').unwrap_or((text, ""));
+    let method = Method::named(name).ok_or_else(|| format!("there is no method {name:?}; evenly methods lists them"))?;
+    let mut settings = Settings::default();
+    for word in words.split(',').filter(|word| !word.is_empty()) {
+        let (flag, value) = word.split_once('=').unwrap_or((word, "on"));
+        let name = flag.replace('-', "_");
+        let known = method.parameters().into_iter().find(|(about, _)| about.name == name);
+        let (about, _) = known.ok_or_else(|| format!("{method} has no {flag}; evenly methods {method} lists what it has"))?;
+        let value = match about.kind {
+            ParameterKind::Number => number(value).map(Setting::Number),
+            ParameterKind::Target => target(value),
+            ParameterKind::Count => count(value),
+            ParameterKind::Flag if value == "on" => Ok(Setting::On),
+            ParameterKind::Flag => Err("it takes no value".into()),
+            ParameterKind::Choice(_) => Ok(Setting::Choice(value.into())),
+        };
+        settings.set(about.name, value.map_err(|why| format!("{word}: {why}"))?);
+    }
+    method.optimizer(&settings, 0).map_err(|error| by_flag(error).to_string())?;
+    Ok(Told { label: text.into(), method, settings })
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "it must be a number".into())
+}
+
+fn target(text: &str) -> Result<Setting, String> {
+    if text == "off" { Ok(Setting::Off) } else { number(text).map(Setting::Number).map_err(|why| format!("{why}, or off")) }
+}
+
+fn count(text: &str) -> Result<Setting, String> {
+    text.parse().map(Setting::Count).map_err(|_| "it must be a count".into())
+}
+
+/// What help says of a parameter.
+struct Help {
+    /// In a line or two.
+    short: String,
+    /// All of it.
+    long: String,
+}
+
+/// A parameter as one method has it.
+type Taker = (Method, About, Option<Setting>);
+
+/// The parameters of all methods that are offered, in their order, with those that have them.
+fn parameters<O: Offered>() -> Vec<(About, Vec<Taker>)> {
+    let mut found: Vec<(About, Vec<Taker>)> = Vec::new();
+    for method in O::all() {
+        for (about, default) in method.parameters() {
+            match found.iter_mut().find(|(known, _)| known.name == about.name) {
+                Some((_, takers)) => takers.push((method, about, default)),
+                None => found.push((about, vec![(method, about, default)])),
+            }
+        }
+    }
+    found
+}
+
+/// The methods' words on a parameter, each once.
+fn help<O: Offered>(takers: &[Taker]) -> Help {
+    let n_with_any = O::all().iter().filter(|method| !method.parameters().is_empty()).count();
+    let docs = grouped(takers, |(_, about, _)| about.doc.to_owned());
+    let mut short = match &docs[..] {
+        [(doc, _)] if takers.len() == n_with_any => doc.clone(),
+        docs => docs.iter().map(|(doc, methods)| format!("{}: {doc}", names(methods))).collect::<Vec<_>>().join("; "),
+    };
+    if takers.iter().all(|(_, about, _)| about.kind == ParameterKind::Target) {
+        short += "; or off";
+    }
+    let defaults = grouped(takers, |(_, about, default)| match default {
+        _ if !about.default.is_empty() => about.default.to_owned(),
+        Some(value) if about.kind != ParameterKind::Flag => value.to_string(),
+        _ => String::new(),
+    });
+    let mut long = short.clone();
+    match &defaults[..] {
+        [(value, _)] if value.is_empty() => {}
+        [(value, _)] => {
+            short += &format!(" [default: {value}]");
+            long = short.clone();
+        }
+        several => {
+            let told = several.iter().filter(|(value, _)| !value.is_empty()).map(|(value, methods)| format!("{}: {value}", names(methods)));
+            short += " [default: by the method]";
+            long += &format!(" [default: {}]", told.collect::<Vec<_>>().join("; "));
+        }
+    }
+    let details = takers.iter().filter(|(_, about, _)| !about.details.is_empty());
+    details.for_each(|(method, about, _)| long += &format!("\n\n{method}: {}", about.details));
+    Help { short, long }
+}
+
+/// What is said of methods, each once, and of which it is.
+fn grouped(takers: &[Taker], say: impl Fn(&Taker) -> String) -> Vec<(String, Vec<Method>)> {
+    let mut groups: Vec<(String, Vec<Method>)> = Vec::new();
+    for taker in takers {
+        let said = say(taker);
+        match groups.iter_mut().find(|(known, _)| *known == said) {
+            Some((_, methods)) => methods.push(taker.0),
+            None => groups.push((said, vec![taker.0])),
+        }
+    }
+    groups
+}
+
+/// The methods that have a parameter.
+fn takers<O: Offered>(name: &str) -> Vec<Method> {
+    O::all().into_iter().filter(|method| method.takes(name)).collect()
+}
+
+/// The same error, with the names of flags.
+pub fn by_flag(error: Error) -> anyhow::Error {
+    let shown = |name: &str| format!("--{}", if name.starts_with("max_") { "iterations".into() } else { flag(name) });
+    match error {
+        Error::InvalidParameter { name, value, expected } => anyhow!("{} is {value}; it must be {expected}", shown(name)),
+        Error::Missing { names, question } => {
+            let names: Vec<String> = names.iter().map(|name| shown(name)).collect();
+            anyhow!("{} is missing: {question}", names.join(" or "))
+        }
+        Error::Excluded { names: [one, other], why } => anyhow!("{} and {} exclude each other: {why}", shown(one), shown(other)),
+        other => other.into(),
+    }
+}
+
+fn flag(name: &str) -> String {
+    name.replace('_', "-")
+}
+
+/// Names for a sentence.
+pub fn names(methods: &[Method]) -> String {
+    match methods {
+        [all @ .., last] if !all.is_empty() => {
+            let all: Vec<&str> = all.iter().map(Method::name).collect();
+            format!("{} or {last}", all.join(", "))
+        }
+        [one] => one.name().to_owned(),
+        _ => String::new(),
+    }
+}
+
+/// All that make points in a space, by a density if there is one, optimisers, then starts.
+pub fn all_in(space: &Space, has_density: bool) -> Vec<Method> {
+    let is_there = |method: &Method| method.takes_space(space) && (method.knows_density() || !has_density) && method.name() != "warp";
+    Method::all().filter(is_there).collect()
+}
+
+/// Refuses a method that knows no density, where there is one.
+pub fn refuse_density(method: Method) -> anyhow::Result<()> {
+    if !method.knows_density() {
+        bail!("--density is for --method {}", names(&ByDensity::all()));
+    }
+    Ok(())
+}
+
+/// Refuses a start that knows no density, where there is one.
+pub fn require_density(start: Method) -> anyhow::Result<()> {
+    if !start.knows_density() {
+        let known: Vec<Method> = Starts::all().into_iter().filter(Method::knows_density).collect();
+        bail!("--start {start} goes by no density; take {}", names(&known));
+    }
+    Ok(())
+}
+
+/// Refuses flags for what comes before an optimiser, where there is none.
+pub fn refuse_beginning(method: Method, has_start: bool, is_unwarped: bool) -> anyhow::Result<()> {
+    if has_start && !method.is_optimizer() {
+        bail!("--start is for --method {}", names(&Optimizers::all()));
+    }
+    if is_unwarped && !method.is_warped_first() {
+        bail!("--no-warp is for --method {}", names(&Method::all().filter(Method::is_warped_first).collect::<Vec<_>>()));
+    }
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::args::command;
 
     #[test]
-    fn every_flag_of_the_table_is_one_and_every_method_is_offered() {
-        let command = command();
-        let verb = |name: &str| command.get_subcommands().find(|verb| verb.get_name() == name).cloned().unwrap_or_default();
-        for (id, methods) in FLAGS {
-            let has = |name: &str| verb(name).get_arguments().any(|arg| arg.get_id() == id);
-            assert!(has("generate"), "{id}");
-            assert!(has("optimize") || *id == "start" || !methods.iter().any(|method| method.is_optimizer()), "{id}");
+    fn every_parameter_of_the_registry_is_a_flag_with_its_methods_and_default_in_the_help() {
+        let mut generate = <crate::args::Cli as clap::CommandFactory>::command()
+            .get_subcommands()
+            .find(|verb| verb.get_name() == "generate")
+            .cloned()
+            .unwrap_or_default();
+        let help = generate.render_long_help().to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+        for method in Method::all() {
+            assert!(help.contains(method.title()), "{method}");
+            for (about, _) in method.parameters() {
+                let arg = generate.get_arguments().find(|arg| arg.get_id() == about.name);
+                let told = arg.and_then(Arg::get_long_help).map(ToString::to_string).unwrap_or_default();
+                assert!(told.contains(about.doc) && told.contains(about.default), "{method} {}", about.name);
+            }
         }
-        for &method in Method::value_variants() {
-            assert!(method.is_optimizer() != (method.is_start() || method == Method::Warp));
+    }
+
+    #[test]
+    fn a_method_can_be_told_by_itself() {
+        let told =
+            parse_told("push-pull:min-distance=0.8,capacity-tolerance=off,schedule=summed").map(|told| (told.method.name(), told.settings));
+        let wanted = Settings::default().with("min_distance", Setting::Number(0.8)).with("capacity_tolerance", Setting::Off);
+        assert_eq!(told, Ok(("push-pull", wanted.with("schedule", Setting::Choice("summed".into())))));
+        assert!(parse_told("farthest-point:local").is_ok());
+        for wrong in ["", "x", "lloyd:beta=1", "lloyd:iterations=0", "lloyd:iterations", "push-pull:preset=x", "farthest-point:local=2"] {
+            assert!(parse_told(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn values_are_read_by_their_kind() {
+        let read = |words: &[&str]| {
+            let command = MethodArgs::<Any>::augment_args(Command::new("words").no_binary_name(true));
+            command.try_get_matches_from(words).and_then(|matches| MethodArgs::<Any>::from_arg_matches(&matches)).map(|args| args.settings)
+        };
+        let settings = read(&["--min-distance=off", "--side=2", "--iterations=3", "--mode=paper", "--local"]).unwrap_or_default();
+        let wanted = [
+            ("iterations", Setting::Count(3)),
+            ("local", Setting::On),
+            ("min_distance", Setting::Off),
+            ("mode", Setting::Choice("paper".into())),
+            ("side", Setting::Number(2.0)),
+        ];
+        assert_eq!(settings, wanted.into_iter().fold(Settings::default(), |all, (name, value)| all.with(name, value)));
+        for wrong in ["--min-distance=on", "--side=a", "--iterations=1.5", "--iterations=off", "--mode=slow", "--local=yes"] {
+            assert!(read(&[wrong]).is_err(), "{wrong}");
         }
     }
 }

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::sync::OnceLock;
 
-use evenly::{Measures, Report, Space, UnmetTarget, angle_bounds_deg};
+use evenly::{Measures, Optimizer, Report, Space, UnmetTarget, angle_bounds_deg};
 use serde::Serialize;
+use serde_json::{Value, json};
 
 #[derive(Serialize)]
 pub struct Record {
@@ -18,7 +19,7 @@ pub struct Record {
     pub metric: &'static str,
     pub n_points: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub parameters: Option<serde_json::Value>,
+    pub parameters: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub run: Option<Report>,
     /// Wall time of each phase.
@@ -33,6 +34,12 @@ pub struct Record {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unmet: Option<Vec<UnmetTarget>>,
     pub notes: Vec<String>,
+}
+
+/// The parameters of a method, by their names.
+pub fn parameters(optimizer: &dyn Optimizer) -> Value {
+    let seed = optimizer.seed().map(|seed| ("seed".to_owned(), Value::from(seed)));
+    optimizer.parameters().into_iter().map(|(name, setting)| (name.to_owned(), json!(setting))).chain(seed).collect()
 }
 
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{ArgGroup, Args, ValueEnum};
+use clap::{ArgGroup, Args};
+use evenly::Method;
 use evenly_io::{CloudFormat, MeshFormat};
 
-use crate::mesh_args::parse_mesh_format;
-use crate::method_args::{PresetArg, Target, parse_target};
+use crate::mesh_args::{parse_mesh_format, push_pull};
+use crate::method::{MethodArgs, OnMeshes, OnSurfaces, parser};
 use crate::parse::parse_count;
 use crate::shared_args::LongArgs;
 
@@ -60,27 +61,12 @@ pub struct RemeshWishes {
     /// The same seed gives the same mesh
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
-    /// How vertices find their places
-    #[arg(short, long, value_enum, default_value_t = RemeshRule::PushPull, help_heading = "Method")]
-    pub method: RemeshRule,
-    /// Targets of push-pull [default: 0.90, 0.63, tolerance 0.1: no obtuse triangle]
-    #[arg(long, value_enum, help_heading = "Method")]
-    pub preset: Option<PresetArg>,
-    /// Of push-pull: no two vertices nearer than this; 1 is the spacing
-    #[arg(long, value_name = "D", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Method")]
-    pub min_distance: Option<Target>,
-    /// Of push-pull: no circumradius larger than this
-    #[arg(long, value_name = "R", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Method")]
-    pub coverage_radius: Option<Target>,
-    /// Of push-pull: by how much cells may differ in area, while most vertices find their places
-    #[arg(long, value_name = "T", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Method")]
-    pub capacity_tolerance: Option<Target>,
-    /// Of well-spaced and opt-beta: the wanted ratio of the largest circumradius to the shortest edge
-    #[arg(long, value_name = "B", allow_negative_numbers = true, help_heading = "Method")]
-    pub beta: Option<f64>,
-    /// Passes at most, and as many again after vertices are put or let go [default: push-pull and well-spaced 1000, lloyd 100, opt-beta and distmesh 200]
-    #[arg(short, long, value_name = "N", value_parser = parse_count, help_heading = "Method")]
-    pub iterations: Option<usize>,
+    /// How vertices find their places; those of eliminate stay at the start: sample elimination, or --points
+    #[arg(short, long, default_value_t = push_pull(), value_parser = parser::<OnMeshes>(), help_heading = "Method")]
+    pub method: Method,
+    /// What the method is told; passes are as many again after vertices are put or let go
+    #[command(flatten)]
+    pub method_args: MethodArgs<OnMeshes>,
     /// Edges of other lengths here and there: curvature[:error], lfs, linear:axis,ratio, attr:NAME, or a file with a number for each vertex
     ///
     /// curvature: shorter where it bends; with an error, in the input's units, so short that triangles are about so far from the input, and as many as it takes, unless -n
@@ -93,9 +79,9 @@ pub struct RemeshWishes {
     /// let go where the targets cannot be met otherwise.
     #[arg(long, value_name = "ANGLE", default_value = "40deg", value_parser = parse_features, help_heading = "Shape")]
     pub features: Features,
-    /// How far the input may be from the mesh, where edges are short less in proportion: where it is farther, a vertex is put and kept, if targets can be met so; off for as it comes [default: 0.5 spacings, 0.35 with --density]
-    #[arg(long, value_name = "D", value_parser = parse_target, allow_negative_numbers = true, help_heading = "Shape")]
-    pub tolerance: Option<Target>,
+    /// How far the input may be from the mesh, in edge lengths: where it is farther, a vertex is put and kept, if targets can be met so; off for as it comes [default: 0.5, 0.35 with --density]
+    #[arg(long, value_name = "D", value_parser = parse_deviation, allow_negative_numbers = true, help_heading = "Shape")]
+    pub max_deviation: Option<MaxDeviation>,
     /// Mend what can be without guessing: turn triangles that run the wrong way, close cracks at vertices on open edges, separate sheets that touch, cut open what is left
     #[arg(long, help_heading = "Shape")]
     pub repair: bool,
@@ -104,27 +90,21 @@ pub struct RemeshWishes {
     pub weld: Option<f64>,
 }
 
-/// How vertices find their places.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum RemeshRule {
-    /// Push-pull optimization (Ahmed, Guo, Yan et al.)
-    PushPull,
-    /// Low beta, the ratio of the largest circumradius to the shortest edge (Ebeida et al.)
-    WellSpaced,
-    /// Opt-beta: the least ratio of each cell by itself (Ebeida et al.)
-    OptBeta,
-    /// Lloyd's method: to the centroids of the Voronoi cells
-    Lloyd,
-    /// They stay at the start: sample elimination, or --points
-    Eliminate,
-    /// Springs between neighbours (Persson and Strang)
-    #[value(name = "distmesh")]
-    DistMesh,
-}
-
 /// The angle from which on creases are kept; none of borders alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features(pub Option<f64>);
+
+/// How far the input may be from the mesh, in edge lengths; none for as it comes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaxDeviation(pub Option<f64>);
+
+fn parse_deviation(text: &str) -> Result<MaxDeviation, String> {
+    if text == "off" {
+        return Ok(MaxDeviation(None));
+    }
+    let length = text.parse().ok().filter(|&length: &f64| length > 0.0 && length.is_finite());
+    length.map(|length| MaxDeviation(Some(length))).ok_or_else(|| "it must be positive and finite, or off".to_owned())
+}
 
 fn parse_features(text: &str) -> Result<Features, String> {
     if text == "off" {
@@ -135,13 +115,11 @@ fn parse_features(text: &str) -> Result<Features, String> {
     angle.map(|angle| Features(Some(angle))).ok_or_else(|| "it must be an angle above 0 and below 180, as 40deg, or off".to_owned())
 }
 
-impl RemeshWishes {
-    /// The density's file, if it is one.
-    pub fn density_path(&self) -> Option<&Path> {
-        let words = self.density.as_deref()?;
-        let is_named = ["curvature", "lfs", "linear", "attr"].contains(&words.split(':').next().unwrap_or(words));
-        (!is_named).then_some(Path::new(words))
-    }
+/// The file that a density on a surface is, if it is one.
+pub fn density_path(density: Option<&str>) -> Option<&Path> {
+    let words = density?;
+    let is_named = ["curvature", "lfs", "linear", "attr"].contains(&words.split(':').next().unwrap_or(words));
+    (!is_named).then_some(Path::new(words))
 }
 
 #[derive(Args)]
@@ -181,8 +159,14 @@ pub struct SampleWishes {
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     pub spacing: Option<f64>,
     /// How they are spread
-    #[arg(short, long, value_enum, default_value_t = SampleRule::PushPull)]
-    pub method: SampleRule,
+    #[arg(short, long, default_value_t = push_pull(), value_parser = parser::<OnSurfaces>(), help_heading = "Method")]
+    pub method: Method,
+    /// What the method is told.
+    #[command(flatten)]
+    pub method_args: MethodArgs<OnMeshes>,
+    /// Points nearer to each other here and there, as in remesh
+    #[arg(long, value_name = "HOW")]
+    pub density: Option<String>,
     /// The same seed gives the same points
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -192,19 +176,6 @@ pub struct SampleWishes {
     /// Make one of corners that lie within this distance of each other, in the input's units
     #[arg(long, value_name = "D", allow_negative_numbers = true)]
     pub weld: Option<f64>,
-}
-
-/// How points are spread over a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SampleRule {
-    /// Push-pull optimization: the vertices of a new mesh
-    PushPull,
-    /// Sample elimination by the mesh's neighbourhoods: what the others begin with
-    Eliminate,
-    /// Maximal Poisson-disk sampling, with distances that do not reach through thin parts
-    PoissonDisk,
-    /// Independent uniform points
-    White,
 }
 
 fn parse_cloud_format(text: &str) -> Result<CloudFormat, String> {

@@ -5,23 +5,22 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use evenly::{
-    Attribute, CertificateBreach, DistMeshParams, LloydParams, MissedLengths, OptBetaParams, Outcome, PushPullParams, RemeshMethod,
-    RemeshParams, Remeshed, Report, RunContext, Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh,
-    WellSpacedParams, certificate, expected_vertices, hexagonal_spacing, missed_lengths, remesh, self_intersections, surface_distance,
-    surface_quality, surface_sizes,
+    Attribute, CertificateBreach, LocalMethod, Method, MissedLengths, Outcome, RemeshParams, Remeshed, Report, RunContext, Surface,
+    SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, certificate, expected_vertices, missed_lengths, remesh,
+    self_intersections, surface_distance, surface_quality, surface_sizes,
 };
 use evenly_io::{read_numbers, read_triangles_or_points};
 use serde_json::Value;
 
 use crate::measured::told;
 use crate::memory;
-use crate::method_args::set;
+use crate::method::{MethodArgs, OnMeshes, by_flag};
 use crate::parse::read_words;
-use crate::remesh_args::RemeshRule;
 pub use crate::remesh_args::RemeshWishes;
+use crate::remesh_args::density_path;
 
 /// Parameters, and the flags that hold them.
-const FLAGS: [(&str, &str); 11] = [
+const FLAGS: [(&str, &str); 7] = [
     ("n_points", "n-points"),
     ("features_deg", "features"),
     ("error", "density curvature"),
@@ -29,17 +28,10 @@ const FLAGS: [(&str, &str); 11] = [
     ("points", "points"),
     ("linear", "density linear"),
     ("attr", "density attr"),
-    ("min_distance", "min-distance"),
-    ("coverage_radius", "coverage-radius"),
-    ("capacity_tolerance", "capacity-tolerance"),
-    ("max_passes", "iterations"),
 ];
 
 /// The distance at which vertices are put on what stands out where sizes vary, in spacings: who varies them wants a mesh that is near.
-const SIZED_TOLERANCE: f64 = 0.35;
-
-/// Sweeps of opt-beta on a mesh, unless others are asked for.
-pub(crate) const OPT_BETA_SWEEPS: usize = 200;
+const SIZED_DEVIATION: f64 = 0.35;
 
 /// A new mesh, and how it came about.
 pub struct Made {
@@ -49,7 +41,7 @@ pub struct Made {
     pub report: Report,
     /// What was asked for.
     pub parameters: Value,
-    method: RemeshMethod,
+    method: LocalMethod,
 }
 
 /// The measures of a new mesh.
@@ -132,15 +124,14 @@ pub fn remeshed(
     }
     let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
     memory::require_vertices(n_points)?;
-    let spacing = hexagonal_spacing(surface.area(), n_points as f64);
-    refuse_others_flags(wishes)?;
-    let method = method(wishes);
-    if let Some(length) = wishes.tolerance.and_then(|target| target.0).filter(|&length| !(length > 0.0 && length.is_finite())) {
-        bail!("--tolerance is {length}; it must be positive and finite, or off");
+    if wishes.max_deviation.is_some() && !wishes.method.is_optimizer() {
+        bail!("--max-deviation needs vertices that move; those of {} stay", wishes.method);
     }
-    let default = if sizes.is_empty() { RemeshParams::default().tolerance } else { Some(SIZED_TOLERANCE) };
-    let tolerance = wishes.tolerance.map_or(default, |target| target.0.map(|length| length / spacing));
-    let params = RemeshParams { n_points, method, features_deg: wishes.features.0, tolerance, sizes, points, seed: wishes.seed };
+    let method = method_of(wishes.method, &wishes.method_args, wishes.seed)?;
+    let default = if sizes.is_empty() { RemeshParams::default().max_deviation } else { Some(SIZED_DEVIATION) };
+    let max_deviation = wishes.max_deviation.map_or(default, |wanted| wanted.0);
+    let features_deg = wishes.features.0;
+    let params = RemeshParams { n_points, method: method.clone(), features_deg, max_deviation, sizes, points, seed: wishes.seed };
     let (mut remeshed, mut report) = remesh(surface, &params, run).map_err(told)?;
     round(&mut remeshed.mesh);
     if n_equal > 0 {
@@ -157,14 +148,11 @@ impl Made {
     pub fn measured(&self, surface: &Surface) -> anyhow::Result<Measured> {
         // What has no area, or touches itself, is mended for the measures alone.
         let made = Surface::repaired(&self.remeshed.mesh)?;
-        let mut breaches = targets(&self.method).map_or_else(Vec::new, |beta| certificate(&made, beta));
+        let mut breaches = self.method.beta().map_or_else(Vec::new, |beta| certificate(&made, beta));
         worst_first(&mut breaches);
-        let missed = match self.method {
-            RemeshMethod::PushPull(params) if self.report.outcome == Outcome::IterationLimit => {
-                missed_lengths(&made, params.min_distance, params.coverage_radius)
-            }
-            _ => Vec::new(),
-        };
+        let [distance, radius] = self.method.lengths();
+        let has_missed = self.report.outcome == Outcome::IterationLimit && distance.or(radius).is_some();
+        let missed = if has_missed { missed_lengths(&made, distance, radius) } else { Vec::new() };
         Ok(Measured {
             quality: surface_quality(&made),
             distance: surface_distance(&made, surface),
@@ -205,69 +193,13 @@ pub fn place_attributes(places: &[SurfacePoint]) -> Vec<Attribute> {
     ]
 }
 
-/// The ratio of both radii that a method aims at.
-fn targets(method: &RemeshMethod) -> Option<f64> {
-    match method {
-        RemeshMethod::PushPull(params) => Some(params.coverage_radius? / params.min_distance?),
-        RemeshMethod::WellSpaced(params) => Some(params.beta),
-        _ => None,
-    }
-}
-
-/// That what belongs to one method is not given for another.
-fn refuse_others_flags(wishes: &RemeshWishes) -> anyhow::Result<()> {
-    let RemeshWishes { method, preset, min_distance, coverage_radius, capacity_tolerance, beta, iterations, tolerance, .. } = wishes;
-    let has_beta = matches!(method, RemeshRule::WellSpaced | RemeshRule::OptBeta);
-    let flags = [
-        ("preset", preset.is_some(), "push-pull", *method == RemeshRule::PushPull),
-        ("min-distance", min_distance.is_some(), "push-pull", *method == RemeshRule::PushPull),
-        ("coverage-radius", coverage_radius.is_some(), "push-pull", *method == RemeshRule::PushPull),
-        ("capacity-tolerance", capacity_tolerance.is_some(), "push-pull", *method == RemeshRule::PushPull),
-        ("beta", beta.is_some(), "well-spaced and opt-beta", has_beta),
-        ("iterations", iterations.is_some(), "all methods but eliminate", *method != RemeshRule::Eliminate),
-        ("tolerance", tolerance.is_some(), "all methods but eliminate", *method != RemeshRule::Eliminate),
-    ];
-    match flags.iter().find(|(_, is_given, _, is_taken)| *is_given && !is_taken) {
-        Some((name, _, takers, _)) => bail!("--{name} is for --method {takers}"),
-        None => Ok(()),
-    }
-}
-
-fn method(wishes: &RemeshWishes) -> RemeshMethod {
-    let RemeshWishes { seed, iterations, beta, .. } = *wishes;
-    match wishes.method {
-        RemeshRule::PushPull => {
-            let default = match RemeshMethod::default() {
-                RemeshMethod::PushPull(params) => params,
-                _ => PushPullParams::default(),
-            };
-            let mut params = wishes.preset.map_or(default, |preset| PushPullParams::preset(preset.into()));
-            set(&mut params.min_distance, wishes.min_distance.map(|target| target.0));
-            set(&mut params.coverage_radius, wishes.coverage_radius.map(|target| target.0));
-            set(&mut params.capacity_tolerance, wishes.capacity_tolerance.map(|target| target.0));
-            RemeshMethod::PushPull(PushPullParams { max_passes: iterations, seed, ..params })
-        }
-        RemeshRule::WellSpaced => {
-            let mut params = WellSpacedParams { max_passes: iterations, seed, ..WellSpacedParams::default() };
-            set(&mut params.beta, beta);
-            RemeshMethod::WellSpaced(params)
-        }
-        RemeshRule::OptBeta => {
-            let iterations = iterations.unwrap_or(OPT_BETA_SWEEPS);
-            RemeshMethod::OptBeta(OptBetaParams { beta: Some(beta.unwrap_or(0.75)), iterations, ..OptBetaParams::default() })
-        }
-        RemeshRule::Eliminate => RemeshMethod::Eliminate,
-        RemeshRule::Lloyd => {
-            let mut params = LloydParams { seed, ..LloydParams::default() };
-            set(&mut params.iterations, iterations);
-            RemeshMethod::Lloyd(params)
-        }
-        RemeshRule::DistMesh => {
-            let mut params = DistMeshParams { seed, ..DistMeshParams::default() };
-            set(&mut params.iterations, iterations);
-            RemeshMethod::DistMesh(params)
-        }
-    }
+/// A method on meshes, as it is told.
+///
+/// # Errors
+/// What it does not take, with the names of flags.
+pub(crate) fn method_of(method: Method, args: &MethodArgs<OnMeshes>, seed: u64) -> anyhow::Result<LocalMethod> {
+    args.refuse_others(&[method])?;
+    method.on_meshes(&args.of(method), seed).map_err(by_flag)
 }
 
 /// How many vertices are asked for, by their number or by a spacing.
@@ -301,12 +233,12 @@ pub fn points(wishes: &RemeshWishes) -> anyhow::Result<Vec<[f64; 3]>> {
 ///
 /// # Errors
 /// Words that mean nothing, and files that cannot be read.
-pub fn sizing(wishes: &RemeshWishes) -> anyhow::Result<Option<SurfaceSizing>> {
-    wishes.density.as_deref().map(|words| sizing_of(words, wishes)).transpose()
+pub fn sizing(density: Option<&str>) -> anyhow::Result<Option<SurfaceSizing>> {
+    density.map(sizing_of).transpose()
 }
 
-fn sizing_of(words: &str, wishes: &RemeshWishes) -> anyhow::Result<SurfaceSizing> {
-    if let Some(path) = wishes.density_path() {
+fn sizing_of(words: &str) -> anyhow::Result<SurfaceSizing> {
+    if let Some(path) = density_path(Some(words)) {
         return Ok(SurfaceSizing::Given(read_numbers(path).with_context(|| format!("--density {words}"))?));
     }
     let (name, value) = words.split_once(':').map_or((words, None), |(name, value)| (name, Some(value)));

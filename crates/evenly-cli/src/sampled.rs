@@ -2,33 +2,48 @@
 
 use std::path::Path;
 
-use evenly::{Report, RunContext, Surface, SurfacePoint, SurfaceSampling, sample_surface};
+use evenly::{Report, RunContext, SampleParams, Surface, SurfacePoint, SurfaceSampling, SurfaceSizing, sample_surface, surface_sizes};
 
 use crate::measured::told;
 use crate::memory;
+use crate::method::{POISSON_DISK, WHITE};
 use crate::parse::read_words;
-use crate::remesh_args::SampleRule;
 pub use crate::remesh_args::SampleWishes;
-use crate::remeshed::number_of;
+use crate::remeshed::{method_of, number_of};
 
 /// Parameters, and the flags that hold them.
-const FLAGS: [(&str, &str); 2] = [("n_points", "n-points"), ("spacing", "spacing")];
+const FLAGS: [(&str, &str); 6] = [
+    ("n_points", "n-points"),
+    ("spacing", "spacing"),
+    ("error", "density curvature"),
+    ("sizes", "density"),
+    ("linear", "density linear"),
+    ("attr", "density attr"),
+];
 
 /// Spreads points; of wishes in words see [`wishes`].
 ///
 /// # Errors
 /// As [`sample_surface`], with the names of flags; `name` is the mesh's.
-pub fn sampled(surface: &Surface, name: &Path, wishes: &SampleWishes, run: &mut RunContext) -> anyhow::Result<(Vec<SurfacePoint>, Report)> {
+pub fn sampled(
+    surface: &Surface,
+    name: &Path,
+    wishes: &SampleWishes,
+    sizing: Option<&SurfaceSizing>,
+    run: &mut RunContext,
+) -> anyhow::Result<(Vec<SurfacePoint>, Report)> {
+    let told = |e| told(e, name, &FLAGS);
     let n_points = number_of(surface, wishes.n_points, wishes.spacing)?.unwrap_or_default();
     memory::require_vertices(n_points)?;
-    let sampling = match (wishes.method, wishes.spacing) {
-        (SampleRule::PushPull, _) => SurfaceSampling::PushPull(n_points),
-        (SampleRule::Eliminate, _) => SurfaceSampling::Eliminate(n_points),
-        (SampleRule::White, _) => SurfaceSampling::White(n_points),
-        (SampleRule::PoissonDisk, Some(spacing)) => SurfaceSampling::PoissonDisk(spacing),
-        (SampleRule::PoissonDisk, None) => SurfaceSampling::poisson_disk_of(surface, n_points),
+    let sampling = match (wishes.method.name(), wishes.spacing) {
+        (WHITE, _) => SurfaceSampling::White(n_points),
+        (POISSON_DISK, Some(spacing)) => SurfaceSampling::PoissonDisk(spacing),
+        (POISSON_DISK, None) => SurfaceSampling::poisson_disk_of(surface, n_points),
+        _ => SurfaceSampling::Vertices(n_points, method_of(wishes.method, &wishes.method_args, wishes.seed)?),
     };
-    sample_surface(surface, sampling, wishes.seed, run).map_err(|e| told(e, name, &FLAGS))
+    wishes.method_args.refuse_others(&[wishes.method])?;
+    let sizes = sizing.map_or(Ok(Vec::new()), |sizing| surface_sizes(surface, sizing, Some(n_points))).map_err(told)?;
+    sample_surface(surface, &SampleParams { sampling, sizes, seed: wishes.seed }, run).map_err(told)
 }
 
 /// Wishes in the command line's words, as `--n-points=1000`.

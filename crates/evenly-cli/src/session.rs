@@ -4,15 +4,13 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Measures, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
+use evenly::{CancelToken, Measures, Method, Optimizer, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
 use evenly_io::{Columns, Draw, Target, write_table};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::RunArgs;
 use crate::improve::{KEPT, is_nearer, notes, warp_for};
 use crate::interrupt;
-use crate::method::Method;
-use crate::optimizer::Optimizer;
 use crate::record::{self, Record};
 use crate::talk::say;
 
@@ -106,7 +104,7 @@ impl<'a> Session<'a> {
     }
 
     /// Optimises points, and finishes.
-    pub fn optimize(mut self, mut points: PointSet, method: Method, optimizer: Box<dyn Optimizer>, is_warped: bool) -> anyhow::Result<u8> {
+    pub fn optimize(mut self, mut points: PointSet, optimizer: Box<dyn Optimizer>, is_warped: bool) -> anyhow::Result<u8> {
         self.seed = self.seed.or(optimizer.seed());
         let warp = warp_for(&points, &*optimizer, is_warped);
         let start = (warp.is_some() && optimizer.targets().is_some()).then(|| points.clone());
@@ -141,6 +139,7 @@ impl<'a> Session<'a> {
             self.note(KEPT.into());
             points = start;
         }
+        let method = optimizer.method();
         self.optimizer = Some(optimizer);
         self.finish(points, method, Some(report))
     }
@@ -174,12 +173,12 @@ impl<'a> Session<'a> {
         let record = Record {
             version: record::VERSION,
             command: record::command(),
-            method: method.name(),
+            method: method.name().into(),
             seed: self.seed,
             space: self.restores_to.as_ref().unwrap_or(&points).space().clone(),
             metric: if self.restores_to.is_some() { "unit" } else { "input" },
             n_points: points.n_points(),
-            parameters: self.optimizer.map(|optimizer| optimizer.parameters()),
+            parameters: self.optimizer.as_deref().map(record::parameters),
             run,
             seconds: self.seconds,
             angle_bounds_deg: measures.as_ref().and_then(record::certified_angles),

@@ -60,7 +60,7 @@ pub struct DensityArgs {
     ///
     /// The picture, .png, .jpg or .tif, spans the domain, and its luma is the density that is wanted: where it is black there are no points. HOW is any of invert (dark counts
     /// instead), contrast=C (tones are spread from middle grey), gamma=G (raised to this power) and floor=F (the least density, from 0 to 1), with commas between them.
-    /// For all methods but opt-beta, cvt, farthest-point, dart, jittered and hexagonal.
+    /// `evenly methods` lists the methods that follow it.
     #[arg(long, value_name = "FILE[:HOW]", value_parser = parse_density, allow_hyphen_values = true)]
     density: Option<DensitySpec>,
 }

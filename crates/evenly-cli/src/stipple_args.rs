@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use evenly::Method;
 use evenly_io::{Format, Tone};
 
-use crate::method::{Method, parser};
+use crate::method::{ByDensity, MethodArgs, OptimizersByDensity, parser};
 use crate::parse::{parse_count, parse_format, parse_mm};
 use crate::shared_args::LongArgs;
 
@@ -27,11 +28,11 @@ pub struct Stipple {
     #[arg(long, value_parser = parse_format)]
     pub format: Option<Format>,
     /// How dots are spread; poisson-disk, eliminate and white are no optimisers
-    #[arg(short, long, default_value = "push-pull", value_parser = parser(|method| method.knows_density() && method != Method::Warp))]
+    #[arg(short, long, default_value = "push-pull", value_parser = parser::<ByDensity>())]
     pub method: Method,
-    /// Passes of an optimiser [default: push-pull, well-spaced and capacity: 60, others by the method]
-    #[arg(short, long, value_name = "I", allow_negative_numbers = true)]
-    pub iterations: Option<usize>,
+    /// What the method is told; passes of push-pull, well-spaced and capacity are 60 unless they are given
+    #[command(flatten)]
+    pub method_args: MethodArgs<OptimizersByDensity>,
     /// The same seed gives the same dots
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,

@@ -2,10 +2,10 @@
 
 use anyhow::Context as _;
 use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser};
-use evenly::{CancelToken, Density, PointSet, Rectangle, RunContext, Space};
+use evenly::{CancelToken, Density, Method, PointSet, Rectangle, RunContext, Space};
 use evenly_io::Photograph;
 
-use crate::method::{Method, parser};
+use crate::method::{ByDensity, MethodArgs, OptimizersByDensity, parser};
 use crate::stipple::{DotsParams, Ink, dots, shares};
 use crate::stipple_args::{DrawOrder, Layers, Sizes, ToneArgs};
 
@@ -26,10 +26,10 @@ pub struct Layer {
 #[derive(Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Flags {
-    #[arg(long, default_value = "push-pull", value_parser = parser(|method| method.knows_density() && method != Method::Warp))]
+    #[arg(long, default_value = "push-pull", value_parser = parser::<ByDensity>())]
     method: Method,
-    #[arg(long)]
-    iterations: Option<usize>,
+    #[command(flatten)]
+    method_args: MethodArgs<OptimizersByDensity>,
     #[arg(long, default_value_t = 0)]
     seed: u64,
     #[command(flatten)]
@@ -60,10 +60,11 @@ pub fn stipple(
     cancel: &CancelToken,
 ) -> anyhow::Result<Vec<Layer>> {
     let matches = Flags::command().try_get_matches_from(words).map_err(|error| crate::plain(&error))?;
-    let Flags { method, iterations, seed, tone, drawing } = Flags::from_arg_matches(&matches).map_err(|error| crate::plain(&error))?;
+    let Flags { method, method_args, seed, tone, drawing } = Flags::from_arg_matches(&matches).map_err(|error| crate::plain(&error))?;
     let tone = tone.tone()?;
     let space: Space = Rectangle::new([0.0, 0.0], photograph.size().map(|n| n as f64)).context("the picture")?.into();
-    let params = DotsParams { method, iterations, sizes: drawing.sizes, order: drawing.order };
+    method_args.refuse_others(&[method])?;
+    let params = DotsParams { method, settings: method_args.of(method), sizes: drawing.sizes, order: drawing.order };
     let inks = Ink::of(photograph, &tone, drawing.layers);
     let mut layers = Vec::new();
     // Of each layer another seed, so that no two put their dots in the same places.

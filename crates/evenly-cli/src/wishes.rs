@@ -1,14 +1,13 @@
 //! [`Wishes`]: what is asked for of points by another face than the command line, in its words: so the same wish is the same points, to the bit, and wrong ones are the same errors.
 
 use anyhow::{Context as _, bail};
-use clap::{ArgMatches, FromArgMatches as _, Parser};
-use evenly::{Outcome, PointSet, Report, RunContext, measure, warp};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser};
+use evenly::{Method, Optimizer, Outcome, PointSet, Report, RunContext, measure};
 
+use crate::args::WarpArg;
 use crate::improve::{KEPT, is_nearer, notes, warp_for};
 use crate::input;
-use crate::method::{Method, parser, refuse_others_flags};
-use crate::method_args::{OptimizerArgs, StartArgs, start_around};
-use crate::optimizer::Optimizer;
+use crate::method::{Any, MethodArgs, Starts, by_flag, parser, refuse_beginning, refuse_density, require_density};
 
 /// A method, and what it is told.
 pub struct Wishes {
@@ -19,16 +18,16 @@ pub struct Wishes {
 #[derive(Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Flags {
-    #[arg(long, default_value = "procrustes", value_parser = parser(|_| true))]
+    #[arg(long, default_value_t = Method::default(), value_parser = parser::<Any>())]
     method: Method,
-    #[arg(long, value_parser = parser(Method::is_start))]
+    #[arg(long, value_parser = parser::<Starts>())]
     start: Option<Method>,
     #[arg(long, default_value_t = 0)]
     seed: u64,
     #[command(flatten)]
-    optimizer: OptimizerArgs,
+    warp: WarpArg,
     #[command(flatten)]
-    starts: StartArgs,
+    method_args: MethodArgs<Any>,
 }
 
 /// Points, and how they came about.
@@ -59,13 +58,11 @@ impl Wishes {
     /// # Errors
     /// What the command line says of them.
     pub fn parse(words: &[String]) -> anyhow::Result<Self> {
-        let read = || -> Result<(Flags, ArgMatches), clap::Error> {
-            let matches = <Flags as clap::CommandFactory>::command().try_get_matches_from(words)?;
-            Ok((Flags::from_arg_matches(&matches)?, matches))
-        };
-        let (flags, matches) = read().map_err(|error| crate::plain(&error))?;
-        refuse_others_flags(&[flags.method], &matches)?;
-        let optimizer = flags.optimizer.optimizer(flags.method, flags.seed)?;
+        let matches = Flags::command().try_get_matches_from(words);
+        let flags = matches.and_then(|matches| Flags::from_arg_matches(&matches)).map_err(|error| crate::plain(&error))?;
+        flags.method_args.refuse_others(&[flags.method])?;
+        refuse_beginning(flags.method, flags.start.is_some(), flags.warp.no_warp)?;
+        let optimizer = flags.method.optimizer(&flags.method_args.of(flags.method), flags.seed).map_err(by_flag)?;
         Ok(Self { flags, optimizer })
     }
 
@@ -74,25 +71,24 @@ impl Wishes {
     /// # Errors
     /// As `evenly generate`.
     pub fn generate(&self, fixed: &PointSet, n_points: Option<usize>, run: &mut RunContext) -> anyhow::Result<Made> {
-        let Flags { method, start, seed, optimizer: flags, starts } = &self.flags;
+        let Flags { method, start, seed, warp, method_args } = &self.flags;
         let has_density = !fixed.density().is_uniform();
         if has_density {
-            method.refuse_density()?;
+            refuse_density(*method)?;
         }
         match &self.optimizer {
             Some(optimizer) => {
                 let begin = start.unwrap_or(method.default_start(fixed.space(), has_density));
                 if has_density {
-                    begin.require_density()?;
+                    require_density(begin)?;
                 }
                 let n_points = n_points.context("n is missing: how many points?")?;
-                let points = start_around(fixed, begin, n_points, *seed)?;
+                let points = begin.start(fixed, n_points, *seed).map_err(by_flag)?;
                 // Only white noise has long density waves.
-                improved(points, &**optimizer, begin == Method::White && !flags.no_warp, run)
+                improved(points, &**optimizer, begin.has_long_waves() && !warp.no_warp, run)
             }
-            None if *method == Method::Warp => bail!("warp makes no points of its own; it is a method of optimize"),
             None => {
-                let (points, note) = starts.make(*method, fixed, n_points, *seed)?;
+                let (points, note) = method.make(&method_args.of(*method), fixed, n_points, *seed).map_err(by_flag)?;
                 Ok(Made { points, report: None, notes: note.into_iter().collect(), unmet: Vec::new() })
             }
         }
@@ -104,16 +100,12 @@ impl Wishes {
     /// As `evenly optimize`.
     pub fn optimize(&self, fixed: &PointSet, points: PointSet, run: &mut RunContext) -> anyhow::Result<Made> {
         if !fixed.density().is_uniform() {
-            self.flags.method.refuse_density()?;
+            refuse_density(self.flags.method)?;
         }
-        let mut points = input::joined(fixed, points)?.with_density(fixed.density());
+        let points = input::joined(fixed, points)?.with_density(fixed.density());
         match &self.optimizer {
-            Some(optimizer) => improved(points, &**optimizer, !self.flags.optimizer.no_warp, run),
-            None if self.flags.method == Method::Warp => {
-                warp(&mut points);
-                Ok(Made { points, report: None, notes: Vec::new(), unmet: Vec::new() })
-            }
-            None => bail!("{} makes points, and improves none", self.flags.method.name()),
+            Some(optimizer) => improved(points, &**optimizer, !self.flags.warp.no_warp, run),
+            None => bail!("{} makes points, and improves none", self.flags.method),
         }
     }
 }

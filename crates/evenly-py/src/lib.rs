@@ -38,8 +38,15 @@ fn _evenly(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(surfaces::write_surface, module)?)?;
     module.add_function(wrap_pyfunction!(surfaces::surface_figure, module)?)?;
     module.add_function(wrap_pyfunction!(stipples::stipple, module)?)?;
+    module.add_function(wrap_pyfunction!(methods, module)?)?;
     module.add_function(wrap_pyfunction!(command, module)?)?;
     Ok(())
+}
+
+/// All methods and what they can be told, as JSON.
+#[pyfunction]
+fn methods() -> String {
+    evenly_cli::methods().to_string()
 }
 
 /// The command line; returns its exit code.

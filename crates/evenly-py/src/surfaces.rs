@@ -72,7 +72,7 @@ pub fn remesh(
         let surface = surface(&mesh, &name, wishes.repair, &mut notes)?;
         let sizing = match sizes {
             Some(sizes) => Some(SurfaceSizing::Given(sizes)),
-            None => remeshed::sizing(&wishes)?,
+            None => remeshed::sizing(wishes.density.as_deref())?,
         };
         let points = match points {
             Some(points) => points,
@@ -101,13 +101,24 @@ pub fn remesh(
 
 /// Where points lie, and the rest as JSON.
 #[pyfunction]
-pub fn sample(py: Python, shape: Shape, words: Vec<String>, threads: Option<usize>, callback: Option<Py<PyAny>>) -> PyResult<Py<PyAny>> {
+pub fn sample(
+    py: Python,
+    shape: Shape,
+    words: Vec<String>,
+    sizes: Option<Vec<f64>>,
+    threads: Option<usize>,
+    callback: Option<Py<PyAny>>,
+) -> PyResult<Py<PyAny>> {
     let (mesh, name, mut notes) = shape.mesh(py)?;
     run(py, Terms { threads, callback }, move |context, _| {
         let wishes = sampled::wishes(&words)?;
         let mesh = welded(mesh, wishes.weld, &mut notes)?;
         let surface = surface(&mesh, &name, wishes.repair, &mut notes)?;
-        let (places, report) = sampled(&surface, &name, &wishes, context)?;
+        let sizing = match sizes {
+            Some(sizes) => Some(SurfaceSizing::Given(sizes)),
+            None => remeshed::sizing(wishes.density.as_deref())?,
+        };
+        let (places, report) = sampled(&surface, &name, &wishes, sizing.as_ref(), context)?;
         notes.extend(report.notes.iter().cloned());
         let has_missed = report.outcome == Outcome::IterationLimit;
         let said = json(&serde_json::json!({ "run": report, "notes": notes, "has_missed": has_missed }))?;

@@ -39,6 +39,36 @@ pub enum Error {
         /// What it should have been.
         expected: &'static str,
     },
+    /// A parameter that the method does not have.
+    #[error("{method} has no parameter {name}")]
+    UnknownParameter {
+        /// The parameter's name.
+        name: String,
+        /// The method's.
+        method: &'static str,
+    },
+    /// A method that improves points was asked to make some.
+    #[error("{method} improves points, and makes none of its own")]
+    NoStart {
+        /// The method's name.
+        method: &'static str,
+    },
+    /// What is needed was not given.
+    #[error("{} is missing: {question}", names.join(" or "))]
+    Missing {
+        /// The names of what was not given; one of them is enough.
+        names: &'static [&'static str],
+        /// What is not known without it.
+        question: &'static str,
+    },
+    /// Two parameters were given of which one alone can be followed.
+    #[error("{} and {} exclude each other: {why}", names[0], names[1])]
+    Excluded {
+        /// Their names.
+        names: [&'static str; 2],
+        /// The reason.
+        why: &'static str,
+    },
     /// The domain is so far from zero, or the points so many, that f64 cannot tell neighbours apart.
     #[error(
         "{n_points} points in {domain} are {spacing:e} apart, but numbers that large are only {resolution:e} apart; \

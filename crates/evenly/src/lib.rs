@@ -24,7 +24,8 @@ mod geometry;
 mod imaging;
 mod measure;
 mod mesh;
-mod optimize;
+mod methods;
+mod parameter;
 mod points;
 mod polygon;
 mod predicates;
@@ -49,20 +50,19 @@ pub use measure::{
     BorderMeasures, Measures, PointMeasures, PowerSpectrum, RadialSpectrum, SizeErrors, Tessellation, differential_spectrum,
     local_spacings, measure, measure_each, power_spectrum, radial_spectrum, tessellate,
 };
-pub use mesh::{
-    EdgeKind, Mesh, MeshEdge, MeshMethod, MeshParams, MeshQuality, MeshRegion, expected_triangles, mesh, mesh_cells, mesh_quality,
+pub use mesh::{EdgeKind, Mesh, MeshEdge, MeshParams, MeshQuality, MeshRegion, expected_triangles, mesh, mesh_cells, mesh_quality};
+pub use methods::{
+    CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, LocalMethod, Method, Mode, OptBetaParams, Optimizer,
+    ProcrustesParams, PushPullParams, PushPullPreset, Targets, UnmetTarget, WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh,
+    farthest_point, lloyd, opt_beta, procrustes, push_pull, well_spaced,
 };
-pub use optimize::{
-    CapacityParams, CvtParams, DistMeshParams, FarthestPointParams, LloydParams, Mode, OptBetaParams, ProcrustesParams, PushPullParams,
-    PushPullPreset, Targets, UnmetTarget, WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh, farthest_point, lloyd, opt_beta,
-    procrustes, push_pull, well_spaced,
-};
+pub use parameter::{About, Choice, Group, ParameterKind, Setting, Settings};
 pub use points::{
     CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,
     poisson_disk_around, poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, warp, warp_isotropic, white, white_by_density,
 };
 pub use polygon::{FillRule, Polygon, Shape};
-pub use remesh::{RemeshMethod, RemeshParams, Remeshed, SurfacePoint, SurfaceSampling, remesh, sample_surface};
+pub use remesh::{RemeshParams, Remeshed, SampleParams, SurfacePoint, SurfaceSampling, remesh, sample_surface};
 pub use run::{CancelToken, Outcome, Phase, Progress, Report, RunContext};
 pub use space::{Rectangle, Region, Space, Torus};
 pub use surface::{

@@ -5,6 +5,7 @@ pub mod bilateral;
 pub mod compare;
 pub mod generate;
 pub mod mesh;
+pub mod methods;
 pub mod optimize;
 pub mod remesh;
 pub mod reproduce;

@@ -1,22 +1,22 @@
 //! `evenly optimize`: better points from points.
 
-use anyhow::bail;
-use clap::ArgMatches;
-use evenly::warp;
+use anyhow::Context as _;
 
 use crate::args::Optimize;
 use crate::input;
 use crate::memory;
-use crate::method::{Method, refuse_others_flags};
+use crate::method::{by_flag, refuse_beginning, refuse_density};
 use crate::session::Session;
 
-pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<u8> {
-    refuse_others_flags(&[args.method], flags)?;
-    let space = args.space.space()?;
-    if args.method == Method::Warp && space.region().is_some() {
-        bail!("--method warp moves points by a rectangle's sides; in a polygon it would do nothing");
+pub fn run(args: &Optimize) -> anyhow::Result<u8> {
+    args.optimizer.refuse_others(&[args.method])?;
+    refuse_beginning(args.method, false, args.warp.no_warp)?;
+    if args.density.is_given() {
+        refuse_density(args.method)?;
     }
-    let optimizer = args.optimizer.optimizer(args.method, args.seed)?;
+    let space = args.space.space()?;
+    let optimizer = args.method.optimizer(&args.optimizer.of(args.method), args.seed).map_err(by_flag)?;
+    let optimizer = optimizer.with_context(|| format!("{} makes points, and improves none", args.method))?;
     let mut session = Session::new(&args.run, None)?;
     input::require_one_stdin(std::iter::once(&args.input).chain(args.density.path()).chain(args.space.path()).chain(args.fixed.path()))?;
     let fixed = args.fixed.points(space.clone())?;
@@ -29,16 +29,10 @@ pub fn run(args: &Optimize, flags: &ArgMatches) -> anyhow::Result<u8> {
     let points = input::joined(&fixed, points)?;
     memory::require_points(points.n_points(), args.method)?;
     let given = points.with_density(&session.time("read", || args.density.density())?);
-    let mut points = args.metric.applied(given.clone())?;
+    let points = args.metric.applied(given.clone())?;
     session.restores_to = args.metric.is_unit().then_some(given);
     if let Some(note) = note {
         session.note(note);
     }
-    match optimizer {
-        Some(optimizer) => session.optimize(points, args.method, optimizer, !args.optimizer.no_warp),
-        None => {
-            session.time("warp", || warp(&mut points));
-            session.finish(points, args.method, None)
-        }
-    }
+    session.optimize(points, optimizer, !args.warp.no_warp)
 }

@@ -9,7 +9,7 @@ use evenly_io::{MeshFormat, Target, read_triangles, round_as_stl, stl_rounding, 
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::remesh_args::Remesh;
+use crate::remesh_args::{Remesh, density_path};
 use crate::remeshed::{Made, notes_on, points, remeshed, sizing, surface_of, welded, with_places};
 use crate::talk::say;
 use crate::{input, interrupt, record, session};
@@ -21,7 +21,7 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let begin = Instant::now();
     let targets = Targets::new(args)?;
     let wishes = &args.wishes;
-    let density: Option<PathBuf> = wishes.density_path().map(Into::into);
+    let density: Option<PathBuf> = density_path(wishes.density.as_deref()).map(Into::into);
     input::require_one_stdin([Some(&args.input), density.as_ref(), wishes.points.as_ref()].into_iter().flatten())?;
     let pool = session::pool(args.run.threads, args.run.quiet)?;
     let read = read_triangles(&args.input)?;
@@ -29,7 +29,7 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let surface = surface_of(&welded(read.mesh, wishes.weld, &mut notes)?, &args.input, wishes.repair)?;
     notes.extend(notes_on(&surface));
 
-    let (sizing, points) = (sizing(wishes)?, points(wishes)?);
+    let (sizing, points) = (sizing(wishes.density.as_deref())?, points(wishes)?);
     let cancel = CancelToken::default();
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let mut warned: Vec<String> = Vec::new();

@@ -7,11 +7,11 @@ use evenly::{CancelToken, Outcome, Report, TriangleMesh};
 use evenly_io::{CloudFormat, Target, read_triangles, write_cloud};
 use serde::Serialize;
 
-use crate::remesh_args::Sample;
-use crate::remeshed::{notes_on, place_attributes, surface_of, welded};
+use crate::remesh_args::{Sample, density_path};
+use crate::remeshed::{notes_on, place_attributes, sizing, surface_of, welded};
 use crate::sampled::sampled;
 use crate::talk::say;
-use crate::{interrupt, record, session};
+use crate::{input, interrupt, record, session};
 
 pub fn run(args: &Sample) -> anyhow::Result<u8> {
     let begin = Instant::now();
@@ -31,16 +31,19 @@ pub fn run(args: &Sample) -> anyhow::Result<u8> {
     }
     let wishes = &args.wishes;
     let pool = session::pool(args.run.threads, args.run.quiet)?;
+    let density = density_path(wishes.density.as_deref()).map(Into::into);
+    input::require_one_stdin([Some(&args.input), density.as_ref()].into_iter().flatten())?;
     let read = read_triangles(&args.input)?;
     let mut notes = read.notes;
     let mesh = welded(read.mesh, wishes.weld, &mut notes)?;
     // Points need no manifold.
     let surface = surface_of(&mesh, &args.input, wishes.repair).or_else(|_| surface_of(&mesh, &args.input, true))?;
+    let sizing = sizing(wishes.density.as_deref())?;
     let cancel = CancelToken::default();
     let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
     let made = pool.install(|| {
         let mut context = session::context(&bar, &cancel, args.run.quiet);
-        sampled(&surface, &args.input, wishes, &mut context)
+        sampled(&surface, &args.input, wishes, sizing.as_ref(), &mut context)
     });
     bar.finish_and_clear();
     let (points, report) = made?;

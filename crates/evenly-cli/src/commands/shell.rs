@@ -2,18 +2,20 @@
 
 use std::io::Write as _;
 
-use crate::args::command;
+use clap::CommandFactory as _;
+
+use crate::args::Cli;
 use crate::session::DONE;
 
 pub fn completions(shell: clap_complete::Shell) -> anyhow::Result<u8> {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut command(), "evenly", &mut script);
+    clap_complete::generate(shell, &mut Cli::command(), "evenly", &mut script);
     print(&script)
 }
 
 /// The page of the command, then those of its verbs.
 pub fn man() -> anyhow::Result<u8> {
-    let mut command = command();
+    let mut command = Cli::command();
     command.build();
     let mut page = Vec::new();
     clap_mangen::Man::new(command.clone()).render(&mut page)?;

@@ -30,7 +30,8 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     memory::require_points(args.n_points, args.method)?;
     let tone = args.tone.tone()?;
     // For bad usage, before a long read.
-    optimizer(args.method, args.iterations, args.seed)?;
+    args.method_args.refuse_others(&[args.method])?;
+    optimizer(args.method, &args.method_args.of(args.method), args.seed)?;
     let pool = session::pool(args.run.threads, args.run.quiet)?;
     let photograph = Photograph::read(&args.input)?;
     let name = photograph.name();
@@ -86,7 +87,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
         let record = Record {
             version: record::VERSION,
             command: record::command(),
-            method: args.method.name(),
+            method: args.method.name().into(),
             seed: args.seed,
             picture_px,
             page_mm: paper.size_mm,
@@ -182,7 +183,7 @@ impl<'a> Drawn<'a> {
         seed: u64,
         cancel: &CancelToken,
     ) -> anyhow::Result<Self> {
-        let params = DotsParams { method: args.method, iterations: args.iterations, sizes: args.sizes, order: args.order };
+        let params = DotsParams { method: args.method, settings: args.method_args.of(args.method), sizes: args.sizes, order: args.order };
         let bar = session::bar(args.run.quiet, 1000, "{msg} [{bar:30}] {eta} left");
         let mut run = session::context(&bar, cancel, args.run.quiet);
         let made = dots(&params, space, ink, tones, n_points, seed, (&mut run, &|| cancel.is_cancelled()))?;

@@ -6,7 +6,6 @@ use evenly_io::picture;
 use super::lab::{Lab, Recipe};
 use super::part::Part;
 use super::recipes::{by_opt_beta, by_well_spaced, cvt};
-use crate::method::Method;
 
 /// Waves of all lengths and directions, the longer the stronger as in photographs, and edges; or fine ripples that grow finer downwards.
 fn image(side: usize, has_ripples: bool) -> anyhow::Result<Image> {
@@ -32,14 +31,14 @@ pub fn table_2(lab: &Lab) -> anyhow::Result<Part> {
          two photographs are not to be had; ours are computed: edges and waves of all lengths, and fine ripples. Means over sets.",
     );
     let recipes: [(Recipe, usize); 8] = [
-        (Recipe::start("white noise", Method::White), 0),
+        (Recipe::start("white noise", "white"), 0),
         (Recipe::maximal("beta = 2", 2.0), 1),
         (Recipe::maximal("beta = 1", 1.0), 2),
         (by_opt_beta("Opt-beta, 0.85", 0.85), 3),
         (by_well_spaced("well-spaced, 0.75", 0.75), 4),
         (by_well_spaced("well-spaced, 0.70", 0.70), 9),
         (cvt(), 9),
-        (Recipe::start("triangle tiling", Method::Hexagonal), 5),
+        (Recipe::start("triangle tiling", "hexagonal"), 5),
     ];
     let printed: [[[f64; 2]; 6]; 2] = [
         [[0.013, 0.020], [0.010, 0.014], [0.0093, 0.013], [0.0089, 0.013], [0.0087, 0.012], [0.012, 0.017]],

@@ -4,16 +4,13 @@ use std::fmt::{Display, Formatter};
 use std::path::PathBuf;
 use std::time::Instant;
 
+use anyhow::Context as _;
 use evenly::{
-    CancelToken, Density, Error, Measures, Outcome, PointSet, PoissonDiskParams, PowerSpectrum, RadialSpectrum, Report, RunContext, Space,
-    Torus, measure, poisson_disk, power_spectrum, radial_spectrum,
+    CancelToken, Density, Error, Measures, Method, Optimizer, Outcome, PointSet, PoissonDiskParams, PowerSpectrum, RadialSpectrum, Report,
+    RunContext, Space, Torus, measure, poisson_disk, power_spectrum, radial_spectrum,
 };
 use evenly_io::{Draw, Subject, figure};
 use indicatif::ProgressBar;
-
-use crate::method::Method;
-use crate::method_args::start;
-use crate::optimizer::Optimizer;
 
 /// That Ctrl-C ended it.
 #[derive(Debug)]
@@ -46,7 +43,7 @@ pub struct Recipe {
 #[derive(Clone, Copy)]
 enum Start {
     /// Exactly as many points as asked for.
-    Exact(Method),
+    Exact(&'static str),
     /// Maximal Poisson-disk sampling itself, whose number is chance; the largest distance to a point, by the smallest of two points, is this.
     Maximal(f64),
 }
@@ -62,7 +59,7 @@ pub struct Run {
 
 impl Recipe {
     /// A start by itself.
-    pub fn start(name: &'static str, start: Method) -> Self {
+    pub fn start(name: &'static str, start: &'static str) -> Self {
         Self { name, start: Start::Exact(start), is_warped: false, optimizer: None }
     }
 
@@ -72,13 +69,13 @@ impl Recipe {
     }
 
     /// An optimiser, from points as they are.
-    pub fn plain(name: &'static str, start: Method, optimizer: impl Optimizer + 'static) -> Self {
+    pub fn plain(name: &'static str, start: &'static str, optimizer: impl Optimizer + 'static) -> Self {
         Self { name, start: Start::Exact(start), is_warped: false, optimizer: Some(Box::new(optimizer)) }
     }
 
     /// An optimiser as the command line runs it: from white noise, evened out first if that suits the method.
     pub fn usual(name: &'static str, optimizer: impl Optimizer + 'static) -> Self {
-        Self { name, start: Start::Exact(Method::White), is_warped: true, optimizer: Some(Box::new(optimizer)) }
+        Self { name, start: Start::Exact("white"), is_warped: true, optimizer: Some(Box::new(optimizer)) }
     }
 }
 
@@ -102,14 +99,14 @@ impl Lab {
         self.bar.set_message(format!("{}, {n_points} points", recipe.name));
         let clock = Instant::now();
         let mut points = match recipe.start {
-            Start::Exact(method) => start(method, &space, &Density::uniform(), n_points, seed)?,
+            Start::Exact(method) => named(method)?.start_in(&space, &Density::uniform(), n_points, seed)?,
             Start::Maximal(beta) => maximal(&space, n_points, beta, seed)?,
         };
         let start_seconds = clock.elapsed().as_secs_f64();
         let clock = Instant::now();
         let mut report = None;
         if let Some(optimizer) = &recipe.optimizer {
-            if let Some(warp) = optimizer.warp().filter(|_| recipe.is_warped) {
+            if let Some(warp) = optimizer.method().warp().filter(|_| recipe.is_warped) {
                 warp(&mut points);
             }
             let done = optimizer.run(&mut points, &mut RunContext::default().with_cancel(self.cancel.clone()))?;
@@ -131,6 +128,11 @@ impl Lab {
     pub fn check(&self) -> Result<(), Interrupted> {
         if self.cancel.is_cancelled() { Err(Interrupted) } else { Ok(()) }
     }
+}
+
+/// The method of this name.
+pub fn named(name: &str) -> anyhow::Result<Method> {
+    Method::named(name).with_context(|| format!("{name:?} is no method"))
 }
 
 /// A maximal set of about this many points.

@@ -2,12 +2,12 @@
 
 use anyhow::Context as _;
 use evenly::{
-    Error, LloydParams, RemeshMethod, RemeshParams, RunContext, Surface, SurfaceSampling, SurfaceSizing, measure_on_surface,
+    Error, LloydParams, RemeshParams, RunContext, SampleParams, Settings, Surface, SurfaceSampling, SurfaceSizing, measure_on_surface,
     sample_surface, surface_distance, surface_quality, surface_sizes, surface_spectrum,
 };
 use evenly_io::{Draw, Subject, figure, triangles_svg};
 
-use super::lab::Lab;
+use super::lab::{Lab, named};
 use super::part::Part;
 use super::surfaces::{self, PUSH_PULL, run};
 
@@ -110,13 +110,12 @@ fn measured(lab: &Lab, model: &Model, surface: &Surface) -> anyhow::Result<Vec<R
     let n_points = lab.pick(model.n_points / 5, model.n_points);
     let sizes = if model.is_adaptive { curvature(surface, n_points)? } else { Vec::new() };
     let usual = RemeshParams { n_points, sizes, ..RemeshParams::default() };
-    let mut wanted =
-        vec![(PUSH_PULL, usual.clone()), (CVT, RemeshParams { method: RemeshMethod::Lloyd(LloydParams::default()), ..usual.clone() })];
+    let mut wanted = vec![(PUSH_PULL, usual.clone()), (CVT, RemeshParams { method: LloydParams::default().into(), ..usual.clone() })];
     if !model.is_adaptive {
         let sampling = SurfaceSampling::poisson_disk_of(surface, n_points);
-        let (points, _) = sample_surface(surface, sampling, 0, &mut RunContext::default())?;
+        let (points, _) = sample_surface(surface, &SampleParams { sampling, sizes: Vec::new(), seed: 0 }, &mut RunContext::default())?;
         let points: Vec<[f64; 3]> = points.iter().map(|point| point.position).collect();
-        let method = RemeshMethod::Eliminate;
+        let method = named("eliminate")?.on_meshes(&Settings::default(), 0)?;
         wanted.push((MPS, RemeshParams { n_points: points.len(), points, method, features_deg: None, ..usual }));
     }
     let row = |(name, params): (&'static str, RemeshParams)| {

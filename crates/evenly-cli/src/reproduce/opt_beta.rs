@@ -1,7 +1,7 @@
 //! Ebeida et al., "Improving Spatial Coverage while Preserving the Blue Noise of Point Sets".
 
 use evenly::{
-    DistMeshParams, LloydParams, MeshMethod, MeshParams, OptBetaParams, PointSet, Polygon, ReconstructionFilter, RunContext, Space,
+    DistMeshParams, LloydParams, LocalMethod, MeshParams, OptBetaParams, PointSet, Polygon, ReconstructionFilter, RunContext, Space,
     Tessellation, Torus, ZonePlateParams, hexagonal_spacing, lloyd, measure, mesh, mesh_quality, opt_beta, tessellate, zone_plate,
 };
 use evenly_io::{Axis, Curve, Draw, Subject, figure, picture};
@@ -13,7 +13,6 @@ use super::recipes::{by_opt_beta, by_well_spaced, cvt, distmesh, farthest_local}
 use super::spread::spread;
 use super::study::Study;
 use super::surfaces;
-use crate::method::Method;
 
 pub const STUDY: Study = Study {
     name: "opt-beta",
@@ -62,8 +61,8 @@ fn figure_2(lab: &Lab) -> anyhow::Result<Part> {
         (by_opt_beta("Opt-beta to 0.85", 0.85), f64::NAN),
         (Recipe::maximal("MPS", 1.0), 1.0),
         (Recipe::maximal("two-radii MPS, from 1 to 2", 2.0), 2.0),
-        (Recipe::start("dart throwing, not maximal", Method::Dart), f64::NAN),
-        (Recipe::start("PS without conflict disks", Method::White), f64::NAN),
+        (Recipe::start("dart throwing, not maximal", "dart"), f64::NAN),
+        (Recipe::start("PS without conflict disks", "white"), f64::NAN),
     ] {
         let points = lab.run(&recipe, n, SEED)?.points;
         table.row(recipe.name, &[measure(&points)?.beta], &[printed]);
@@ -159,7 +158,7 @@ fn figure_6(lab: &Lab) -> anyhow::Result<Part> {
     let mut rows = Vec::new();
     for &(name, n) in sizes {
         let params = OptBetaParams { beta: Some(0.578), iterations: n_sweeps, ..OptBetaParams::default() };
-        let run = lab.run(&Recipe::plain("Opt-beta", Method::PoissonDisk, params), n, SEED)?;
+        let run = lab.run(&Recipe::plain("Opt-beta", "poisson-disk", params), n, SEED)?;
         let betas = run.report.map_or_else(Vec::new, |report| report.energy);
         let first = |target: f64| betas.iter().position(|&beta| beta <= target).map_or(f64::NAN, |sweep| sweep as f64);
         let least = betas.iter().copied().fold(f64::INFINITY, f64::min);
@@ -334,11 +333,11 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
         ],
     ];
     let l_shape = Polygon::from_rings(vec![vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]]])?;
-    let methods = [
-        ("CVT", MeshMethod::Lloyd(LloydParams::default())),
-        ("DistMesh", MeshMethod::DistMesh(DistMeshParams::default())),
-        ("Opt-beta", MeshMethod::OptBeta(OptBetaParams { beta: Some(0.75), iterations: 200, ..OptBetaParams::default() })),
-        ("evenly's own, by Push-Pull", MeshMethod::PushPull),
+    let methods: [(&str, Option<LocalMethod>); 4] = [
+        ("CVT", Some(LloydParams::default().into())),
+        ("DistMesh", Some(DistMeshParams::default().into())),
+        ("Opt-beta", Some(OptBetaParams { beta: Some(0.75), iterations: 200, ..OptBetaParams::default() }.into())),
+        ("evenly's own, by Push-Pull", None),
     ];
     for (radius, printed) in [0.0314f64, 0.0157].into_iter().zip(printed) {
         let table = part.table(&["beta", "r_c / r_MPS", "r_f / r_MPS", "min angle", "max angle"]);
@@ -352,8 +351,8 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
             table.row(format!("{} (not on the border), r_MPS = {radius}", recipe.name), &ours, paper(recipe.name));
         }
         let spacing = radius * hexagonal_spacing(1.0, POINTS_A_DISK);
-        for (name, method) in methods {
-            let params = MeshParams { method, seed: SEED, ..MeshParams::new(spacing) };
+        for (name, method) in &methods {
+            let params = MeshParams { method: method.clone(), seed: SEED, ..MeshParams::new(spacing) };
             let (mesh, _) = mesh(&l_shape, &params, &mut RunContext::default().with_cancel(lab.cancel.clone()))?;
             let m = mesh_quality(&mesh);
             let ours = [m.beta, m.beta * m.min_edge / radius, m.min_edge / radius, m.min_angle_deg, m.max_angle_deg];

@@ -7,7 +7,6 @@ use super::lab::{Lab, Profile, Recipe};
 use super::part::Part;
 use super::recipes::{farthest, farthest_of_paper};
 use super::study::Study;
-use crate::method::Method;
 
 pub const STUDY: Study = Study {
     name: "procrustes",
@@ -21,7 +20,7 @@ const POINTS: usize = 1024;
 
 /// The paper's own steps, from white noise as it is.
 fn paper() -> Recipe {
-    Recipe::plain("Procrustes, paper mode", Method::White, ProcrustesParams { mode: Mode::Paper, ..ProcrustesParams::default() })
+    Recipe::plain("Procrustes, paper mode", "white", ProcrustesParams { mode: Mode::Paper, ..ProcrustesParams::default() })
 }
 
 fn fast() -> Recipe {
@@ -30,11 +29,11 @@ fn fast() -> Recipe {
 
 /// Equal areas, which is what CCVT asks for, without its centroids.
 fn equal_areas() -> Recipe {
-    Recipe::plain("equal areas", Method::White, CapacityParams::default())
+    Recipe::plain("equal areas", "white", CapacityParams::default())
 }
 
 fn lloyd() -> Recipe {
-    Recipe::plain("Lloyd", Method::White, LloydParams { iterations: 1000, ..LloydParams::default() })
+    Recipe::plain("Lloyd", "white", LloydParams { iterations: 1000, ..LloydParams::default() })
 }
 
 fn figure_1(lab: &Lab) -> anyhow::Result<Part> {
@@ -127,7 +126,7 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
         (paper(), &[11.7, 0.94]),
         (warped, &[]),
         (fast(), &[]),
-        (Recipe::plain("CVT by L-BFGS", Method::White, CvtParams::default()), &[]),
+        (Recipe::plain("CVT by L-BFGS", "white", CvtParams::default()), &[]),
     ];
     for (recipe, printed) in rows {
         let (mut angles, mut quality) = (0.0, 0.0);

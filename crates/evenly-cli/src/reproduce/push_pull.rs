@@ -8,7 +8,6 @@ use super::models;
 use super::part::Part;
 use super::recipes::{farthest, farthest_of_paper};
 use super::study::Study;
-use crate::method::Method;
 
 pub const STUDY: Study = Study {
     name: "push-pull",
@@ -39,20 +38,20 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
          their ratio, effective Nyquist frequency, oscillation, bond-orientational order (of the tool psa). 1024 points.",
     );
     let recipes: [(Recipe, &[f64]); 11] = [
-        (Recipe::start("Random", Method::White), &[0.023, 0.465, 1.635, 71.42, 0.0, 0.074, 0.363]),
+        (Recipe::start("Random", "white"), &[0.023, 0.465, 1.635, 71.42, 0.0, 0.074, 0.363]),
         (Recipe::maximal("MPS", 1.0), &[0.780, 0.821, 0.781, 1.0, 0.655, 2.168, 0.388]),
-        (Recipe::plain("CVT", Method::White, CvtParams::default()), &[0.805, 0.941, 0.657, 0.817, 0.950, 4.733, 0.842]),
+        (Recipe::plain("CVT", "white", CvtParams::default()), &[0.805, 0.941, 0.657, 0.817, 0.950, 4.733, 0.842]),
         (farthest_of_paper(), &[0.925, 0.933, 0.869, 0.939, 0.900, 4.628, 0.428]),
-        (Recipe::plain("Push-pull-1", Method::White, targets(0.80, 0.63)), &[0.800, 0.847, 0.630, 0.787, 0.860, 1.894, 0.487]),
-        (Recipe::plain("Push-pull-2", Method::White, targets(0.90, 0.65)), &[0.900, 0.905, 0.650, 0.722, 0.895, 3.180, 0.499]),
+        (Recipe::plain("Push-pull-1", "white", targets(0.80, 0.63)), &[0.800, 0.847, 0.630, 0.787, 0.860, 1.894, 0.487]),
+        (Recipe::plain("Push-pull-2", "white", targets(0.90, 0.65)), &[0.900, 0.905, 0.650, 0.722, 0.895, 3.180, 0.499]),
         (
-            Recipe::plain("Push-pull-3", Method::White, PushPullParams::preset(PushPullPreset::Paper3)),
+            Recipe::plain("Push-pull-3", "white", PushPullParams::preset(PushPullPreset::Paper3)),
             &[0.920, 0.922, 0.620, 0.674, 0.920, 3.718, 0.597],
         ),
         (Recipe::usual("Procrustes", ProcrustesParams::default()), &[]),
-        (Recipe::plain("Lloyd, 100 iterations", Method::White, LloydParams::default()), &[]),
-        (Recipe::start("dart throwing", Method::Dart), &[]),
-        (Recipe::start("sample elimination", Method::Eliminate), &[]),
+        (Recipe::plain("Lloyd, 100 iterations", "white", LloydParams::default()), &[]),
+        (Recipe::start("dart throwing", "dart"), &[]),
+        (Recipe::start("sample elimination", "eliminate"), &[]),
     ];
     let table = part.table(&["d_min", "d_avg", "r_c", "beta", "nu_eff", "Omega", "BOO"]);
     for (recipe, printed) in recipes {
@@ -107,8 +106,8 @@ fn figure_4a(lab: &Lab) -> anyhow::Result<Part> {
         Recipe::usual("Push-Pull", targets(0.85, 0.67)),
         Recipe::usual("Procrustes", ProcrustesParams::default()),
         farthest(),
-        Recipe::plain("CVT, 100 iterations", Method::White, CvtParams::default()),
-        Recipe::plain("Lloyd, 100 iterations", Method::White, LloydParams::default()),
+        Recipe::plain("CVT, 100 iterations", "white", CvtParams::default()),
+        Recipe::plain("Lloyd, 100 iterations", "white", LloydParams::default()),
     ];
     let mut curves = Vec::new();
     for recipe in &recipes {
@@ -162,7 +161,7 @@ fn figure_4b(lab: &Lab) -> anyhow::Result<Part> {
         ("{0.90, 0.65}", targets(0.90, 0.65)),
         ("{0.91, 0.62}, tolerance 0.1", PushPullParams { capacity_tolerance: Some(0.1), relaxation: 1.2, ..targets(0.91, 0.62) }),
     ] {
-        curves.push(stability(lab, name, &Recipe::plain("Push-Pull", Method::White, params), n)?);
+        curves.push(stability(lab, name, &Recipe::plain("Push-Pull", "white", params), n)?);
     }
     convergence(&mut part, &curves);
     part.remark(
@@ -175,7 +174,7 @@ fn figure_4c(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new("The share of stable samples by pass, from different starts; targets {0.85, 0.67}.");
     let n = lab.pick(1024, 10_000);
     let mut curves = Vec::new();
-    for (name, start) in [("random", Method::White), ("jittered grid", Method::Jittered), ("Poisson-disk", Method::PoissonDisk)] {
+    for (name, start) in [("random", "white"), ("jittered grid", "jittered"), ("Poisson-disk", "poisson-disk")] {
         curves.push(stability(lab, name, &Recipe::plain("Push-Pull", start, targets(0.85, 0.67)), n)?);
     }
     curves.push(stability(lab, "random, evened out first", &Recipe::usual("Push-Pull", targets(0.85, 0.67)), n)?);

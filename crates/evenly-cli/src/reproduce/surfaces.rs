@@ -4,12 +4,12 @@ use std::f64::consts::{PI, TAU};
 use std::path::PathBuf;
 
 use evenly::{
-    LloydParams, OptBetaParams, Outcome, RemeshMethod, RemeshParams, Remeshed, RunContext, Surface, SurfaceSizing, TriangleMesh,
+    LloydParams, LocalMethod, OptBetaParams, Outcome, RemeshParams, Remeshed, RunContext, Settings, Surface, SurfaceSizing, TriangleMesh,
     WellSpacedParams, expected_vertices, remesh, surface_quality, surface_sizes,
 };
 use evenly_io::{Axis, read_triangles, triangles_svg};
 
-use super::lab::{Interrupted, Lab};
+use super::lab::{Interrupted, Lab, named};
 use super::part::Part;
 use super::spread::spread;
 use crate::remeshed::surface_of;
@@ -46,15 +46,15 @@ pub fn figure_15(lab: &Lab) -> anyhow::Result<Part> {
 
 /// A surface by sizes: the start, Opt-beta, and our ways to low ratios.
 fn sized(lab: &Lab, part: &mut Part, surface: &Surface, sizes: &[f64], n_points: usize) -> anyhow::Result<()> {
-    let methods = [
-        ("sample elimination, the start", RemeshMethod::Eliminate),
-        ("Opt-beta", RemeshMethod::OptBeta(OptBetaParams { beta: Some(0.73), iterations: 100, ..OptBetaParams::default() })),
-        ("well-spaced, beta 0.72", RemeshMethod::WellSpaced(WellSpacedParams { beta: 0.72, ..WellSpacedParams::default() })),
-        (PUSH_PULL, RemeshMethod::default()),
+    let methods: [(&str, LocalMethod); 4] = [
+        ("sample elimination, the start", named("eliminate")?.on_meshes(&Settings::default(), 0)?),
+        ("Opt-beta", OptBetaParams { beta: Some(0.73), iterations: 100, ..OptBetaParams::default() }.into()),
+        ("well-spaced, beta 0.72", WellSpacedParams { beta: 0.72, ..WellSpacedParams::default() }.into()),
+        (PUSH_PULL, RemeshParams::default().method),
     ];
     let (mut rows, mut betas, mut angles, mut figures) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (name, method) in methods {
-        let params = RemeshParams { n_points, method, sizes: sizes.to_vec(), tolerance: None, seed: 1, ..RemeshParams::default() };
+        let params = RemeshParams { n_points, method, sizes: sizes.to_vec(), max_deviation: None, seed: 1, ..RemeshParams::default() };
         let (made, passes) = run(lab, surface, &params)?;
         let q = surface_quality(&Surface::new(&made.mesh)?);
         let (local, corners) = local_betas(&made.mesh);
@@ -106,12 +106,12 @@ pub fn figure_14(lab: &Lab) -> anyhow::Result<Part> {
         "1000 points on a sphere (and Figure 13): the ratio of the largest circumradius to the shortest edge, and the angles; by chords.",
     );
     let surface = Surface::new(&sphere(64))?;
-    let methods: [(&str, RemeshMethod, &[f64]); 5] = [
-        ("elimination, and one step of Lloyd", RemeshMethod::Lloyd(LloydParams { iterations: 1, ..LloydParams::default() }), &[]),
-        ("Opt-beta", RemeshMethod::OptBeta(OptBetaParams { beta: Some(0.73), iterations: 400, ..OptBetaParams::default() }), &[0.73]),
-        ("CVT (Lloyd, 400 iterations)", RemeshMethod::Lloyd(LloydParams { iterations: 400, ..LloydParams::default() }), &[0.81]),
-        ("well-spaced, beta 0.72", RemeshMethod::WellSpaced(WellSpacedParams { beta: 0.72, ..WellSpacedParams::default() }), &[]),
-        (PUSH_PULL, RemeshMethod::default(), &[]),
+    let methods: [(&str, LocalMethod, &[f64]); 5] = [
+        ("elimination, and one step of Lloyd", LloydParams { iterations: 1, ..LloydParams::default() }.into(), &[]),
+        ("Opt-beta", OptBetaParams { beta: Some(0.73), iterations: 400, ..OptBetaParams::default() }.into(), &[0.73]),
+        ("CVT (Lloyd, 400 iterations)", LloydParams { iterations: 400, ..LloydParams::default() }.into(), &[0.81]),
+        ("well-spaced, beta 0.72", WellSpacedParams { beta: 0.72, ..WellSpacedParams::default() }.into(), &[]),
+        (PUSH_PULL, RemeshParams::default().method, &[]),
     ];
     let mut figures = Vec::new();
     let table = part.table(&["beta", "theta_min", "theta_max", "valence 6, %", "passes"]);
@@ -136,7 +136,7 @@ pub fn model(lab: &Lab, name: &str) -> anyhow::Result<Option<Surface>> {
 /// A run, and how many passes it took.
 pub fn run(lab: &Lab, surface: &Surface, params: &RemeshParams) -> anyhow::Result<(Remeshed, usize)> {
     lab.check()?;
-    lab.bar.set_message(format!("{}, {} vertices", params.method.name(), params.n_points));
+    lab.bar.set_message(format!("{}, {} vertices", params.method.method(), params.n_points));
     let (made, report) = remesh(surface, params, &mut RunContext::default().with_cancel(lab.cancel.clone()))?;
     if report.outcome == Outcome::Cancelled {
         return Err(Interrupted.into());

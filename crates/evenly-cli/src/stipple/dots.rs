@@ -1,18 +1,17 @@
 //! The dots of one pen: spread by its tones, in the order in which they are drawn, as large as they are to be.
 
-use evenly::{PointSet, RunContext, Space, eliminate, tour};
+use evenly::{Method, PointSet, RunContext, Settings, Space, eliminate, tour};
 
 use super::ink::{Ink, Tones};
 use super::pen::{dot_areas, widest_dot};
 use super::spread::{optimizer, spread};
-use crate::method::Method;
 use crate::stipple_args::{DrawOrder, Sizes};
 
 /// How dots are made.
-#[derive(Clone, Copy)]
 pub struct DotsParams {
     pub method: Method,
-    pub iterations: Option<usize>,
+    /// What the method is told.
+    pub settings: Settings,
     pub sizes: Sizes,
     pub order: DrawOrder,
 }
@@ -40,7 +39,7 @@ pub fn dots(
     seed: u64,
     (run, is_cancelled): (&mut RunContext, &dyn Fn() -> bool),
 ) -> anyhow::Result<Dots> {
-    let optimizer = optimizer(params.method, params.iterations, seed)?;
+    let optimizer = optimizer(params.method, &params.settings, seed)?;
     let points = spread(space, &tones.density, n_points, params.method, optimizer.as_deref(), seed, run)?;
     let points = match params.order {
         // An order that takes long is left out where nobody wants to wait; a pen cannot do without its tour.

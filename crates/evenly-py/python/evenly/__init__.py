@@ -23,6 +23,7 @@ from evenly._measures import (
     radial_power,
 )
 from evenly._meshes import Mesh, MeshQuality, mesh
+from evenly._methods import Method, Parameter, methods
 from evenly._points import Points, generate, optimize
 from evenly._spaces import Polygon, Rectangle, Torus
 from evenly._spectra import SurfaceSpectrum, surface_spectrum
@@ -46,7 +47,9 @@ __all__ = [
     "Measures",
     "Mesh",
     "MeshQuality",
+    "Method",
     "PairCorrelation",
+    "Parameter",
     "Points",
     "Polygon",
     "PowerSpectrum",
@@ -65,6 +68,7 @@ __all__ = [
     "generate",
     "measure",
     "mesh",
+    "methods",
     "optimize",
     "pair_correlation",
     "power_spectrum",

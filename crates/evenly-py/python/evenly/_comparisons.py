@@ -10,12 +10,14 @@ import numpy as np
 
 from evenly._jobs import Interrupted
 from evenly._measures import Measures, measure
+from evenly._methods import MethodOptions, option_words, options_of
 from evenly._points import Points, generate, optimize
 from evenly._seeds import Seed, number
 from evenly._spaces import Pair
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
 
 _SHOWN = ("seconds", "min_distance", "coverage_radius", "beta", "angle_rms_deg", "obtuse_fraction", "capacity_sd", "bond_order")
 
@@ -76,6 +78,7 @@ def compare(
     size: Pair | None = None,
     origin: Pair | None = None,
     threads: int | None = None,
+    **options: "Unpack[MethodOptions]",
 ) -> Comparison:
     """Run several methods on the same points, and lay their measures side by side.
 
@@ -89,6 +92,8 @@ def compare(
         How often, each time with the next seed.
     seed, space, size, origin, threads
         As in `generate`.
+    **options
+        What the methods can be told: each takes those that it has.
 
     Returns
     -------
@@ -111,6 +116,10 @@ def compare(
     """
     if runs < 1:
         raise ValueError(f"runs is {runs}; it must be 1 or more")
+    option_words(options)
+    for name in options:
+        if not any(options_of(method, {name: None}) for method in methods):
+            raise ValueError(f"{name} is for none of these methods")
     first = number(seed)
     found: list[Run] = []
     where: dict[str, Any] = {"space": space, "size": size, "origin": origin, "threads": threads}
@@ -121,9 +130,9 @@ def compare(
                 begin = time.perf_counter()
                 made: Points
                 if isinstance(points, (int, np.integer)):
-                    made = generate(int(points), method=cast(Any, method), seed=chance, **where)
+                    made = generate(int(points), method=cast(Any, method), seed=chance, **where, **cast(Any, options_of(method, options)))
                 else:
-                    made = optimize(points, method=cast(Any, method), seed=chance, **where)
+                    made = optimize(points, method=cast(Any, method), seed=chance, **where, **cast(Any, options_of(method, options)))
                 seconds = time.perf_counter() - begin
                 found.append(Run(method, chance, seconds, measure(made, threads=threads)))
     except KeyboardInterrupt:

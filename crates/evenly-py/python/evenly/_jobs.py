@@ -3,7 +3,7 @@
 import numbers
 import threading
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, TypeAlias, TypeVar, cast
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -13,11 +13,27 @@ Answer = TypeVar("Answer")
 Result = TypeVar("Result")
 
 _MOST_THREADS = 1024
-_FLAGS = {"no_warp", "visible", "local", "no_obtuse", "invert", "repair"}
+Kind: TypeAlias = Literal["number", "target", "count", "flag", "choice"]
+"""What kind of value an option takes; a target is a number or 'off'."""
+
+_KINDS: dict[str, Kind] = {
+    "no_warp": "flag",
+    "no_obtuse": "flag",
+    "invert": "flag",
+    "repair": "flag",
+    "method": "choice",
+    "layers": "choice",
+    "sizes": "choice",
+    "order": "choice",
+    "start": "choice",
+    "density": "choice",
+    "features": "target",
+    "max_deviation": "target",
+    "seed": "count",
+    "n_triangles": "count",
+    "n_points": "count",
+}
 _NEEDED = {"method", "layers", "sizes", "order"}
-_CHOICES = _NEEDED | {"start", "preset", "mode", "schedule", "density"}
-_TARGETS = {"min_distance", "coverage_radius", "capacity_tolerance", "features", "tolerance"}
-_COUNTS = {"seed", "iterations", "tries", "n_triangles", "n_points"}
 
 
 class Progress(NamedTuple):
@@ -91,27 +107,29 @@ def threads_of(threads: object) -> int | None:
 
 def words(options: Mapping[str, object]) -> list[str]:
     """Return options as the command line has them; None and False are left out."""
-    given = []
-    for name, value in options.items():
-        flag = "--" + name.replace("_", "-")
-        if name in _FLAGS:
-            if not isinstance(value, (bool, np.bool_)):
-                raise TypeError(f"{name} must be True or False, not {value!r}")
-            given += [flag] if value else []
-        elif name in _CHOICES:
-            if value is None and name not in _NEEDED:
-                continue
-            if not isinstance(value, str):
-                raise TypeError(f"{name} must be a name, not {value!r}")
-            given.append(f"{flag}={value}")
-        elif value is not None:
-            is_off = name in _TARGETS and value == "off"
-            if name in _COUNTS and not _is_whole(value):
-                raise TypeError(f"{name} must be a whole number, not {value!r}")
-            if not is_off and (isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real)):
-                raise TypeError(f"{name} must be a number, not {value!r}")
-            given.append(f"{flag}={value if is_off else int(cast(int, value)) if name in _COUNTS else repr(float(cast(float, value)))}")
-    return given
+    return [each for name, value in options.items() for each in word(name, value, _KINDS.get(name, "number"))]
+
+
+def word(name: str, value: object, kind: Kind) -> list[str]:
+    """Return one option as the command line has it."""
+    flag = "--" + name.replace("_", "-")
+    if kind == "flag":
+        if not isinstance(value, (bool, np.bool_)):
+            raise TypeError(f"{name} must be True or False, not {value!r}")
+        return [flag] if value else []
+    if value is None and name not in _NEEDED:
+        return []
+    if kind == "choice":
+        if not isinstance(value, str):
+            raise TypeError(f"{name} must be a name, not {value!r}")
+        return [f"{flag}={value}"]
+    if kind == "target" and value == "off":
+        return [f"{flag}=off"]
+    if kind == "count" and not _is_whole(value):
+        raise TypeError(f"{name} must be a whole number, not {value!r}")
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be a number, not {value!r}")
+    return [f"{flag}={int(value) if kind == 'count' else repr(float(value))}"]
 
 
 def _is_whole(value: object) -> bool:

@@ -14,11 +14,13 @@ from evenly import _evenly
 from evenly._arrays import Floats, Frozen, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
+from evenly._methods import MethodOptions, OnMeshes, option_words
 from evenly._seeds import Seed, number
 from evenly._spaces import Polygon
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
 
 _MANY = 20_000
 
@@ -128,8 +130,7 @@ def mesh(
     n_triangles: int | None = None,
     simplify: float | None = None,
     seed: Seed = 0,
-    method: Literal["push-pull", "opt-beta", "lloyd", "distmesh"] = "push-pull",
-    iterations: int | None = None,
+    method: OnMeshes = "push-pull",
     grade: float | None = None,
     max_spacing: float | None = None,
     sizes: "ArrayLike | object | None" = None,
@@ -141,6 +142,7 @@ def mesh(
     regions: "Mapping[str, object] | Sequence[object] | str | os.PathLike[str] | None" = None,
     threads: int | None = None,
     callback: Callback | None = None,
+    **options: "Unpack[MethodOptions]",
 ) -> Mesh:
     """Mesh a polygon with triangles that conform to its border (Ebeida et al. 2014, section 7).
 
@@ -158,8 +160,6 @@ def mesh(
         As in `generate`.
     method : str
         By which rule points move.
-    iterations : int, optional
-        Passes of methods other than 'push-pull'.
     grade : float, optional
         Let edges grow away from the border, by so much a length.
     max_spacing : float, optional
@@ -181,6 +181,8 @@ def mesh(
         of SVG or of a shapefile, rings of text.
     threads, callback
         As in `generate`.
+    **options
+        What the method can be told, see `methods`. Targets, as ``beta=0.72``, are demands: they bound the angles, and where they are missed ``unmet`` says so.
 
     Returns
     -------
@@ -211,20 +213,19 @@ def mesh(
         raise ValueError("simplify would part regions that touch; simplify them before")
     shape = polygon if polygon is None or isinstance(polygon, Polygon) else Polygon(polygon)
     chance = number(seed)
-    options = words(
+    given = words(
         {
             "spacing": spacing,
             "n_triangles": n_triangles,
             "simplify": simplify,
             "seed": chance,
             "method": method,
-            "iterations": iterations,
             "grade": grade,
             "max_spacing": max_spacing,
             "min_angle": min_angle,
             "no_obtuse": no_obtuse,
         }
-    )
+    ) + option_words(options)
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     ways = [rows(line, f"line {k}") for k, line in enumerate(lines or ())]
     lengths = None if sizes is None else rows(sizes, "sizes", 3, may_be_empty=True)
@@ -257,7 +258,7 @@ def mesh(
         )
 
     return run(
-        lambda: _evenly.mesh(outer, options, held, ways, lengths, parts, wanted, threads_of(threads), told(callback)),
+        lambda: _evenly.mesh(outer, given, held, ways, lengths, parts, wanted, threads_of(threads), told(callback)),
         build,
     )
 

@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,20 +12,13 @@ from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._measures import Measures, measure
+from evenly._methods import MethodOptions, Optimizer, Start, option_words
 from evenly._seeds import Seed, number
 from evenly._spaces import Metric, Pair, Polygon, Space, native, space_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
-
-Optimizer: TypeAlias = Literal[
-    "procrustes", "push-pull", "well-spaced", "opt-beta", "lloyd", "cvt", "farthest-point", "distmesh", "capacity"
-]
-"""Methods that make points better."""
-Start: TypeAlias = Literal["poisson-disk", "dart", "eliminate", "white", "jittered", "hexagonal"]
-"""Methods that make points of nothing."""
-Target: TypeAlias = "float | Literal['off'] | None"
-"""A number, 'off', or None for what the method has."""
+    from typing_extensions import Unpack
 
 _MANY = 5000
 _MOST = 40_000_000
@@ -106,25 +99,9 @@ def generate(
     density: Density = None,
     fixed: "ArrayLike | object | None" = None,
     warp: bool = True,
-    iterations: int | None = None,
-    preset: Literal["fast", "balanced", "tough", "paper1", "paper2", "paper3"] | None = None,
-    min_distance: Target = None,
-    coverage_radius: Target = None,
-    capacity_tolerance: Target = None,
-    beta: float | None = None,
-    mode: Literal["paper", "fast"] | None = None,
-    side: float | None = None,
-    tolerance: float | None = None,
-    relaxation: float | None = None,
-    local: bool = False,
-    damping: float | None = None,
-    schedule: Literal["in-turn", "summed"] | None = None,
-    spacing: float | None = None,
-    coverage: float | None = None,
-    visible: bool = False,
-    tries: int | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
+    **options: "Unpack[MethodOptions]",
 ) -> Points:
     """Make points, evenly but not regularly: blue noise.
 
@@ -135,7 +112,7 @@ def generate(
     method : str
         How they are made, by an optimiser or as one of its starts: 'procrustes' (Papazov and Hege 2017), 'push-pull' (Ahmed et al. 2016),
         'well-spaced' and 'opt-beta' (Ebeida et al. 2014), 'lloyd', 'cvt' (Liu et al. 2009), 'farthest-point' (Schlömer et al. 2011), 'distmesh'
-        (Persson and Strang 2004), 'capacity' (Balzer et al. 2009); 'poisson-disk', 'dart', 'eliminate' (Yuksel 2015), 'white', 'jittered', 'hexagonal'.
+        (Persson and Strang 2004), 'capacity' (Balzer et al. 2009), 'warp', which takes long density waves out and nothing else; 'poisson-disk', 'dart', 'eliminate' (Yuksel 2015), 'white', 'jittered', 'hexagonal'.
     start : str, optional
         What an optimiser starts from; by default white noise, of 'opt-beta' 'poisson-disk', in a polygon 'jittered'.
     seed : int, SeedSequence, Generator or None
@@ -154,20 +131,13 @@ def generate(
         Points that stay where they are; they are among the n, and come first.
     warp : bool
         Whether long density waves are taken out first, where that suits the method.
-    iterations : int, optional
-        Stop after so many iterations or passes in any case.
-    preset : str, optional
-        Of 'push-pull': its targets.
-    min_distance, coverage_radius, capacity_tolerance : float or 'off', optional
-        Of 'push-pull', one by one: in hexagonal spacings, and as a part of the mean.
-    beta : float, optional
-        Of 'well-spaced' and 'opt-beta': the coverage radius over the smallest distance. Below 0.707 no triangle is obtuse.
-    mode, side, tolerance, relaxation, local, damping, schedule, spacing, coverage, visible, tries : optional
-        Of some methods, as on the command line: see ``evenly generate --help``.
     threads : int, optional
         All cores by default; the result does not depend on it.
     callback : callable, optional
         Called with the iteration and a `Progress` after each of an optimiser's; False stops the run.
+    **options
+        What the method can be told: ``iterations``; of 'push-pull' its targets, by a ``preset`` or one by one, as ``min_distance=0.85``; of 'well-spaced' and 'opt-beta'
+        ``beta``; and others. `methods` lists them all.
 
     Returns
     -------
@@ -193,36 +163,20 @@ def generate(
     where = space_of(space, size, origin, fixed.space if isinstance(fixed, Points) else None)
     units = metric or (fixed.metric if isinstance(fixed, Points) else "input")
     chance = number(seed)
-    options = words(
+    given = words(
         {
             "method": method,
             "start": start,
             "seed": chance,
             "no_warp": _is_unwarped(warp),
-            "iterations": iterations,
-            "preset": preset,
-            "min_distance": min_distance,
-            "coverage_radius": coverage_radius,
-            "capacity_tolerance": capacity_tolerance,
-            "beta": beta,
-            "mode": mode,
-            "side": side,
-            "tolerance": tolerance,
-            "relaxation": relaxation,
-            "local": local,
-            "damping": damping,
-            "schedule": schedule,
-            "spacing": spacing,
-            "coverage": coverage,
-            "visible": visible,
-            "tries": tries,
         }
     )
+    given += option_words(options)
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     wanted = density_of(density, where)
     count = None if n is None else _count(n)
     return run(
-        lambda: _evenly.generate(count, held, native(where, units), wanted, options, threads_of(threads), told(callback)),
+        lambda: _evenly.generate(count, held, native(where, units), wanted, given, threads_of(threads), told(callback)),
         lambda answer: _points(answer, where, units, method, chance, wanted),
     )
 
@@ -230,7 +184,7 @@ def generate(
 def optimize(
     points: "ArrayLike | object",
     *,
-    method: Optimizer | Literal["warp"] = "procrustes",
+    method: Optimizer = "procrustes",
     seed: Seed = 0,
     space: object = None,
     size: Pair | None = None,
@@ -239,21 +193,9 @@ def optimize(
     density: Density = None,
     fixed: "ArrayLike | object | None" = None,
     warp: bool = True,
-    iterations: int | None = None,
-    preset: Literal["fast", "balanced", "tough", "paper1", "paper2", "paper3"] | None = None,
-    min_distance: Target = None,
-    coverage_radius: Target = None,
-    capacity_tolerance: Target = None,
-    beta: float | None = None,
-    mode: Literal["paper", "fast"] | None = None,
-    side: float | None = None,
-    tolerance: float | None = None,
-    relaxation: float | None = None,
-    local: bool = False,
-    damping: float | None = None,
-    schedule: Literal["in-turn", "summed"] | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
+    **options: "Unpack[MethodOptions]",
 ) -> Points:
     """Make better points of points; those that come in are not changed.
 
@@ -262,10 +204,10 @@ def optimize(
     points : array_like of shape (n, 2)
         A `Points` brings its space, its metric and its density along.
     method : str
-        An optimiser, see `generate`; or 'warp', which only takes long density waves out.
+        An optimiser, see `generate`.
     fixed : array_like of shape (k, 2), optional
         Points that stay where they are. They come first in the result; points at their places are left out.
-    seed, space, size, origin, metric, density, warp, iterations, preset, min_distance, coverage_radius, capacity_tolerance, beta, mode, side, tolerance, relaxation, local, damping, schedule, threads, callback
+    seed, space, size, origin, metric, density, warp, threads, callback, **options
         As in `generate`.
 
     Returns
@@ -292,30 +234,18 @@ def optimize(
     where = space_of(space, size, origin, points.space if isinstance(points, Points) else None)
     units = metric or (points.metric if isinstance(points, Points) else "input")
     chance = number(seed)
-    options = words(
+    given = words(
         {
             "method": method,
             "seed": chance,
             "no_warp": _is_unwarped(warp),
-            "iterations": iterations,
-            "preset": preset,
-            "min_distance": min_distance,
-            "coverage_radius": coverage_radius,
-            "capacity_tolerance": capacity_tolerance,
-            "beta": beta,
-            "mode": mode,
-            "side": side,
-            "tolerance": tolerance,
-            "relaxation": relaxation,
-            "local": local,
-            "damping": damping,
-            "schedule": schedule,
         }
     )
+    given += option_words(options)
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     wanted = density_of(points.density if density is None and isinstance(points, Points) else density, where)
     return run(
-        lambda: _evenly.optimize(positions, held, native(where, units), wanted, options, threads_of(threads), told(callback)),
+        lambda: _evenly.optimize(positions, held, native(where, units), wanted, given, threads_of(threads), told(callback)),
         lambda answer: _points(answer, where, units, method, chance, wanted),
     )
 

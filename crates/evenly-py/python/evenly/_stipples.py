@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen
 from evenly._jobs import Callback, run, threads_of, told, words
+from evenly._methods import MethodOptions, option_words
 from evenly._seeds import Seed, number
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -83,7 +85,6 @@ def stipple(
     n: int = 20_000,
     *,
     method: str = "push-pull",
-    iterations: int | None = None,
     seed: Seed = 0,
     invert: bool = False,
     contrast: float = 1.0,
@@ -95,6 +96,7 @@ def stipple(
     order: Literal["tour", "progressive", "input"] = "tour",
     threads: int | None = None,
     callback: Callback | None = None,
+    **options: "Unpack[MethodOptions]",
 ) -> Stippling:
     """Draw a picture with dots.
 
@@ -107,8 +109,6 @@ def stipple(
         How many dots, exactly, of all layers together.
     method : str
         How dots are spread: any method of `generate` that goes by a density.
-    iterations : int, optional
-        Passes of an optimiser.
     seed : int, SeedSequence, Generator or None
         As in `generate`.
     invert : bool
@@ -125,6 +125,8 @@ def stipple(
         On a short way for a pen; so that any first dots show the whole; or as they come.
     threads, callback
         As in `generate`.
+    **options
+        What the method can be told, see `methods`; 60 ``iterations`` of 'push-pull', 'well-spaced' and 'capacity' by default.
 
     Returns
     -------
@@ -147,10 +149,9 @@ def stipple(
     (500, True)
     """
     chance = number(seed)
-    options = words(
+    given = words(
         {
             "method": method,
-            "iterations": iterations,
             "seed": chance,
             "invert": invert,
             "contrast": contrast,
@@ -161,7 +162,7 @@ def stipple(
             "sizes": sizes,
             "order": order,
         }
-    )
+    ) + option_words(options)
     if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 1:
         raise ValueError(f"n is {n!r}; it must be a whole number, 1 or more")
     source = os.fspath(picture) if isinstance(picture, (str, os.PathLike)) else _colours(picture)
@@ -174,7 +175,7 @@ def stipple(
         )
         return Stippling(tuple(made), size, chance)
 
-    return run(lambda: _evenly.stipple(source, int(n), options, threads_of(threads), told(callback)), build)
+    return run(lambda: _evenly.stipple(source, int(n), given, threads_of(threads), told(callback)), build)
 
 
 def _colours(picture: "ArrayLike") -> NDArray[np.float32]:

@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._jobs import Callback, run, threads_of, told, words
+from evenly._methods import MethodOptions, OnMeshes, OnSurfaces, option_words
 from evenly._seeds import Seed, number
 from evenly._shapes import native
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
 
 _MANY = 20_000
 
@@ -198,21 +200,16 @@ def remesh(
     *,
     spacing: float | None = None,
     seed: Seed = 0,
-    method: Literal["push-pull", "well-spaced", "opt-beta", "lloyd", "eliminate", "distmesh"] = "push-pull",
-    preset: str | None = None,
-    min_distance: float | Literal["off"] | None = None,
-    coverage_radius: float | Literal["off"] | None = None,
-    capacity_tolerance: float | Literal["off"] | None = None,
-    beta: float | None = None,
-    iterations: int | None = None,
+    method: OnMeshes = "push-pull",
     density: "str | ArrayLike | None" = None,
     points: "ArrayLike | None" = None,
     features: float | Literal["off"] = 40.0,
-    tolerance: float | Literal["off"] | None = None,
+    max_deviation: float | Literal["off"] | None = None,
     repair: bool = False,
     weld: float | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
+    **options: "Unpack[MethodOptions]",
 ) -> SurfaceMesh:
     """Give a triangle mesh in space a new one, by default without obtuse triangles (Ahmed et al. 2017, section 5.3).
 
@@ -228,26 +225,23 @@ def remesh(
         As in `generate`.
     method : str
         By which rule vertices move; with 'eliminate' they stay where they begin.
-    preset, min_distance, coverage_radius, capacity_tolerance : optional
-        Targets of 'push-pull', relative to the spacing; {0.90, 0.63} by default, with a tolerance of 0.1.
-    beta : float, optional
-        Of 'well-spaced' and 'opt-beta': the wanted ratio of the largest circumradius to the shortest edge.
-    iterations : int, optional
-        Passes at most, and as many again after vertices are put or let go.
     density : str or array_like of shape (k,), optional
         'curvature', 'curvature:0.01' (an error in input units), 'lfs', 'linear:z,4', of files 'attr:NAME'; or the wanted lengths of edges at the vertices, in proportion.
     points : array_like of shape (k, 3), optional
         Points at which vertices begin, as many as are wanted or more.
     features : float or 'off'
         Edges at which the surface turns by more than so many degrees are kept; borders are in any case.
-    tolerance : float or 'off', optional
-        How far the given mesh may be from the new one, in input units: where it is farther, a vertex is put and kept.
+    max_deviation : float or 'off', optional
+        How far the given mesh may be from the new one, in edge lengths: where it is farther, a vertex is put and kept; 0.5 by default, 0.35 with a density.
     repair : bool
         Mend what can be without guessing.
     weld : float, optional
         Make one of corners that lie within this distance of each other, in input units.
     threads, callback
         As in `generate`.
+    **options
+        What the method can be told, see `methods`. Targets of 'push-pull' are {0.90, 0.63} by default, with a tolerance of 0.1; iterations are as many again after vertices are
+        put or let go.
 
     Returns
     -------
@@ -280,25 +274,19 @@ def remesh(
         raise ValueError("n or spacing is missing: how many vertices?")
     sizes = None if not has_sizes else _sizes(density)
     chance = number(seed)
-    options = words(
+    given = words(
         {
             "n_points": n,
             "spacing": spacing,
             "seed": chance,
             "method": method,
-            "preset": preset,
-            "min_distance": min_distance,
-            "coverage_radius": coverage_radius,
-            "capacity_tolerance": capacity_tolerance,
-            "beta": beta,
-            "iterations": iterations,
             "density": None if has_sizes else density,
             "features": features,
-            "tolerance": tolerance,
+            "max_deviation": max_deviation,
             "repair": repair,
             "weld": weld,
         }
-    )
+    ) + option_words(options)
 
     def build(answer: tuple[_Places, NDArray[np.int64], list[tuple[str, Floats]], str]) -> SurfaceMesh:
         (vertices, facets, barycentric, normals), triangles, attributes, text = answer
@@ -320,7 +308,7 @@ def remesh(
         )
 
     mesh = native(shape)
-    return run(lambda: _evenly.remesh(mesh, options, sizes, begin, threads_of(threads), told(callback)), build)
+    return run(lambda: _evenly.remesh(mesh, given, sizes, begin, threads_of(threads), told(callback)), build)
 
 
 def sample(
@@ -329,11 +317,13 @@ def sample(
     *,
     spacing: float | None = None,
     seed: Seed = 0,
-    method: Literal["push-pull", "eliminate", "poisson-disk", "white"] = "push-pull",
+    method: OnSurfaces = "push-pull",
+    density: "str | ArrayLike | None" = None,
     repair: bool = False,
     weld: float | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
+    **options: "Unpack[MethodOptions]",
 ) -> SurfacePoints:
     """Spread points over a triangle mesh in space.
 
@@ -348,13 +338,17 @@ def sample(
     seed : int, SeedSequence, Generator or None
         As in `generate`.
     method : str
-        'push-pull'; 'eliminate', by the mesh's neighbourhoods; 'poisson-disk', which is maximal, and does not reach through thin parts; or 'white'.
+        'push-pull' and the other methods of `remesh`; 'eliminate', by the mesh's neighbourhoods; 'poisson-disk', which is maximal, and does not reach through thin parts; or 'white'.
+    density : str or array_like of shape (k,), optional
+        Points nearer to each other here and there, as in `remesh`.
     repair : bool
         Mend what can be without guessing.
     weld : float, optional
         Make one of corners that lie within this distance of each other, in input units.
     threads, callback
         As in `generate`.
+    **options
+        What the method can be told, as in `remesh`.
 
     Returns
     -------
@@ -379,7 +373,19 @@ def sample(
     if (n is None) == (spacing is None):
         raise ValueError("give either n or spacing")
     chance = number(seed)
-    options = words({"n_points": n, "spacing": spacing, "seed": chance, "method": method, "repair": repair, "weld": weld})
+    has_sizes = density is not None and not isinstance(density, str)
+    sizes = None if not has_sizes else _sizes(density)
+    given = words(
+        {
+            "n_points": n,
+            "spacing": spacing,
+            "seed": chance,
+            "method": method,
+            "density": None if has_sizes else density,
+            "repair": repair,
+            "weld": weld,
+        }
+    ) + option_words(options)
 
     def build(answer: tuple[_Places, str]) -> SurfacePoints:
         (positions, facets, barycentric, normals), text = answer
@@ -395,7 +401,7 @@ def sample(
         )
 
     mesh = native(shape)
-    return run(lambda: _evenly.sample(mesh, options, threads_of(threads), told(callback)), build)
+    return run(lambda: _evenly.sample(mesh, given, sizes, threads_of(threads), told(callback)), build)
 
 
 def _read(kind: Any, said: dict[str, Any]) -> Any:

@@ -3,7 +3,7 @@
 //! Ebeida, Awad, Ge, Mahmoud, Mitchell, Knupp and Wei, "Improving Spatial Coverage while Preserving the Blue Noise of Point Sets", Computer-Aided Design 46, 2014, doi
 //! 10.1016/j.cad.2013.08.015, section 7.0.1: points on the border move along it, corners stay, and beta bounds the angles.
 //!
-//! What differs, and why: points are moved by Push-Pull's rule, to one distance and one radius, which reaches a lower beta than Opt-beta's; [`MeshMethod`] has that one too, and others. At the border a
+//! What differs, and why: points are moved by Push-Pull's rule, to one distance and one radius, which reaches a lower beta than Opt-beta's; [`MeshParams::method`] can be that one too, and others. At the border a
 //! star is seen once more as in a mirror, so rules know of none. The spacing is shorter where the border asks for it, and where points cannot come to rest some are added or removed.
 //!
 //! Cost: O(n log n); 15 to 30 visits a point where the spacing is the same everywhere, a hundred and more where it varies much. It does not promise any angle, though refinement at the end leaves none
@@ -17,7 +17,6 @@ mod caps;
 mod cells;
 mod coarsen;
 mod finish;
-mod method;
 mod mover;
 mod outline;
 mod patches;
@@ -36,7 +35,6 @@ use serde::Serialize;
 use self::background::{Background, Grading, background, limit_growth};
 use self::caps::{Cap, cut_off};
 pub use self::cells::mesh_cells;
-pub use self::method::MeshMethod;
 use self::mover::Mover;
 use self::outline::Outline;
 pub use self::quality::{MeshQuality, mesh_quality};
@@ -46,6 +44,8 @@ use self::settle::{Place, settle};
 use self::state::State;
 use crate::error::Error;
 use crate::geometry::triangle::Shape;
+use crate::methods::LocalMethod;
+use crate::parameter::Settings;
 use crate::points::{MAX_POINTS, Random};
 use crate::polygon::Polygon;
 use crate::run::{Outcome, Phase, Report, RunContext};
@@ -72,9 +72,10 @@ pub struct MeshParams<'a> {
     pub largest: Option<f64>,
     /// By how much the spacing may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones; where no triangle shall be obtuse, it may be made less.
     pub growth: f64,
-    /// How points find their places.
-    pub method: MeshMethod,
-    /// No triangle shall be obtuse. That takes longer, and is not always reached; only by Push-Pull.
+    /// How points find their places; `None` for Push-Pull to targets that suit the demands. Those on the border and on lines move along their segment, and corners stay, whatever the
+    /// method. Where triangles are bad then, points are added or removed and the method goes on there; the last bad ones are polished.
+    pub method: Option<LocalMethod>,
+    /// No triangle shall be obtuse. That takes longer, and is not always reached.
     pub is_non_obtuse: bool,
     /// No angle shall be smaller, in degrees, but at the polygon's sharper corners; in [0, 35]. `None` for 25. More than 30 is not always reached.
     pub min_angle_deg: Option<f64>,
@@ -98,7 +99,7 @@ impl MeshParams<'_> {
             spacing,
             largest: None,
             growth: 0.25,
-            method: MeshMethod::PushPull,
+            method: None,
             is_non_obtuse: false,
             min_angle_deg: None,
             fixed: Vec::new(),
@@ -107,6 +108,11 @@ impl MeshParams<'_> {
             wanted: None,
             seed: 0,
         }
+    }
+
+    /// What Push-Pull aims at where no lengths are asked for: more than triangles must have.
+    pub fn usual_targets(is_non_obtuse: bool) -> Settings {
+        Mover::new(None, is_non_obtuse, 0).targets()
     }
 
     /// How the spacing is to vary, in normalised units.
@@ -139,10 +145,7 @@ impl MeshParams<'_> {
         if !(self.growth > 0.0 && self.growth <= 1.0) {
             return invalid("growth", self.growth, "more than 0, and 1 at most");
         }
-        self.method.validate()?;
-        if self.is_non_obtuse && self.method != MeshMethod::PushPull {
-            return Err(Error::InvalidParameter { name: "is_non_obtuse", value: "true".into(), expected: "false, but with Push-Pull" });
-        }
+        self.method.as_ref().map_or(Ok(()), LocalMethod::check)?;
         if let Some(least) = self.min_angle_deg.filter(|least| !(0.0..=35.0).contains(least)) {
             return invalid("min_angle_deg", least, "0 or more, and 35 at most");
         }
@@ -275,7 +278,7 @@ fn meshed(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Resul
     let mut report = Report::new("mesh", 0);
     report.notes.clone_from(&outline.notes);
     let place = Place { domain: &domain, outline: &outline, spacing };
-    let mover = Mover { method: &params.method, is_non_obtuse: params.is_non_obtuse, seed: params.seed };
+    let mover = Mover::new(params.method.as_ref(), params.is_non_obtuse, params.seed);
     let settled = settle(state, place, &mover, run, &mut report)?;
 
     // 5. What is left is refined, and the corners come back.

@@ -1,12 +1,12 @@
 //! [`Mover`]: what moves the points of a mesh to their places, at first and after each repair.
 
 use super::aim::Aim;
-use super::method::MeshMethod;
 use crate::error::Error;
-use crate::optimize::{OptBetaParams, PushPull, to_least_ratio};
+use crate::methods::{ByRule, Local, LocalMethod, OptBetaParams, PushPull, to_least_ratio};
+use crate::parameter::{Setting, Settings};
 use crate::run::{Report, RunContext};
 use crate::star::Rule;
-use crate::sweep::{Ending, Plan, Sweep};
+use crate::sweep::{Ending, Plan, Schedule, Sweep};
 use crate::triangulation::LiveMesh;
 
 /// Passes at first in which cells are made alike as well, so that no long waves are left.
@@ -27,21 +27,37 @@ pub(super) const MOST_ROUNDS: usize = 40;
 const PASSES_AGAIN: usize = 20;
 
 /// A method, and what is aimed at.
-pub(super) struct Mover<'a> {
-    pub method: &'a MeshMethod,
-    pub is_non_obtuse: bool,
+pub(super) struct Mover {
+    /// `None` for Push-Pull to what is aimed at.
+    local: Option<Local>,
+    /// What triangles are to be.
+    pub aim: Aim,
+    /// What is easier than that, for after repairs.
+    later_aim: Aim,
     pub seed: u64,
 }
 
-impl Mover<'_> {
-    /// What triangles are to be.
-    pub fn aim(&self) -> Aim {
-        if self.is_non_obtuse { Aim::non_obtuse() } else { Aim::plain() }
+impl Mover {
+    pub fn new(method: Option<&LocalMethod>, is_non_obtuse: bool, seed: u64) -> Self {
+        let local = method.map(LocalMethod::local);
+        let aim = match &local {
+            Some(Local::Targets(targets)) => Aim::of(targets, is_non_obtuse),
+            _ if is_non_obtuse => Aim::non_obtuse(),
+            _ => Aim::plain(),
+        };
+        Self { local, aim, later_aim: if is_non_obtuse { aim } else { aim.loosened() }, seed }
     }
 
-    /// What is easier than that, for after repairs.
-    fn later_aim(&self) -> Aim {
-        if self.is_non_obtuse { Aim::non_obtuse() } else { Aim::loose() }
+    /// What Push-Pull is told to go for the aim.
+    pub fn targets(&self) -> Settings {
+        let Aim { distance, radius, relaxation, .. } = self.aim;
+        let numbers = [
+            ("min_distance", distance),
+            ("coverage_radius", radius),
+            ("capacity_tolerance", self.tolerance()),
+            ("relaxation", Some(relaxation)),
+        ];
+        numbers.into_iter().fold(Settings::default(), |all, (name, number)| all.with(name, number.map_or(Setting::Off, Setting::Number)))
     }
 
     /// The mesh with its points moved; `round` counts the repairs.
@@ -51,11 +67,11 @@ impl Mover<'_> {
     pub fn moved(&self, mesh: LiveMesh, round: usize, run: &mut RunContext, report: &mut Report) -> Result<LiveMesh, Error> {
         let mut sweep = Sweep::new(mesh);
         let passes = |at_first: usize| if round == 0 { at_first } else { PASSES_AGAIN };
-        match self.method {
-            MeshMethod::PushPull => self.push_and_pull(&mut sweep, round, run, report),
-            MeshMethod::Lloyd(params) => self.relax(&mut sweep, &params.rule(), passes(params.iterations), run, report),
-            MeshMethod::DistMesh(params) => self.relax(&mut sweep, &params.rule(), passes(params.iterations), run, report),
-            MeshMethod::OptBeta(params) => {
+        match &self.local {
+            None | Some(Local::Targets(_)) => self.push_and_pull(&mut sweep, round, run, report),
+            Some(Local::Passes(rule, n_passes)) => self.relax(&mut sweep, &ByRule(&**rule), passes(*n_passes), run, report),
+            Some(Local::Stay) => {}
+            Some(Local::LeastRatio(params)) => {
                 let params = OptBetaParams { iterations: report.iterations + passes(params.iterations), ..*params };
                 let best = to_least_ratio(&mut sweep, &params, run, report)?;
                 let mut mesh = sweep.into_mesh();
@@ -66,13 +82,29 @@ impl Mover<'_> {
         Ok(sweep.into_mesh())
     }
 
+    fn schedule(&self) -> Schedule {
+        if let Some(Local::Targets(targets)) = &self.local { targets.schedule } else { Schedule::InTurn }
+    }
+
+    /// By how much cells may differ at first.
+    fn tolerance(&self) -> Option<f64> {
+        match &self.local {
+            Some(Local::Targets(targets)) => targets.capacity_tolerance,
+            _ => Some(TOLERANCE),
+        }
+    }
+
     fn push_and_pull(&self, sweep: &mut Sweep, round: usize, run: &mut RunContext, report: &mut Report) {
+        let passes = match &self.local {
+            Some(Local::Targets(targets)) => targets.max_passes.unwrap_or(PASSES + EVEN_PASSES),
+            _ => PASSES + EVEN_PASSES,
+        };
         if round > 0 {
-            self.rest(sweep, &self.later_aim().rule(None), LATER_PASSES, run, report);
+            self.rest(sweep, &self.later_aim.rule(None), LATER_PASSES.min(passes), run, report);
             return;
         }
-        if self.rest(sweep, &self.aim().rule(Some(TOLERANCE)), EVEN_PASSES, run, report) != Ending::Cancelled {
-            self.rest(sweep, &self.aim().rule(None), PASSES, run, report);
+        if self.rest(sweep, &self.aim.rule(self.tolerance()), EVEN_PASSES.min(passes), run, report) != Ending::Cancelled {
+            self.rest(sweep, &self.aim.rule(None), passes - EVEN_PASSES.min(passes), run, report);
         }
     }
 
@@ -88,6 +120,7 @@ impl Mover<'_> {
         let mut restless = 1.0;
         loop {
             let plan = Plan {
+                schedule: self.schedule(),
                 max_passes: end.min(report.iterations + STRETCH),
                 ..Plan::of_passes(PASSES + MOST_ROUNDS * LATER_PASSES, self.seed)
             };

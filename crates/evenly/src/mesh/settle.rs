@@ -37,7 +37,7 @@ pub(super) fn settle(state: State, place: Place, mover: &Mover, run: &mut RunCon
     let best = rounds.make(state, run, report).ok_or_else(meets_itself)?;
     let mut settled = Settled::new(&best.mesh, best.mesh.triangulation(), &best.corners).ok_or_else(meets_itself)?;
     // Whoever has interrupted wants the state reached, and soon.
-    let aim = mover.aim();
+    let aim = mover.aim;
     if !run.is_cancelled() {
         polish(&mut settled, &outline.rails(), &aim, mover.seed);
     }
@@ -52,7 +52,7 @@ pub(super) fn settle(state: State, place: Place, mover: &Mover, run: &mut RunCon
 /// What rounds are made with, on the whole or on a patch.
 struct Rounds<'a> {
     place: Place<'a>,
-    mover: &'a Mover<'a>,
+    mover: &'a Mover,
     /// Whether an edge on this rail may be halved.
     may_halve: &'a dyn Fn(u32) -> bool,
     is_patch: bool,
@@ -71,7 +71,7 @@ impl Rounds<'_> {
     /// `None` where there is no mesh of the points.
     fn make(&self, mut state: State, run: &mut RunContext, report: &mut Report) -> Option<Best> {
         let Self { place, mover, .. } = *self;
-        let aim = mover.aim();
+        let aim = mover.aim;
         let mut best: Option<Best> = None;
         let mut n_in_vain = 0;
         // The corners of triangles that could not be mended where they are.
@@ -117,7 +117,7 @@ impl Rounds<'_> {
         corners: &[u32],
         given_up: &HashSet<[u64; 2]>,
     ) -> Option<(State, Vec<Patch>)> {
-        let aim = self.mover.aim();
+        let aim = self.mover.aim;
         let state = State::of(mesh, corners.to_vec())?;
         let (_, source) = mesh.bonds()?;
         let is_bad = |t: [u32; 3]| {
@@ -137,7 +137,7 @@ impl Rounds<'_> {
         run: &mut RunContext,
         report: &mut Report,
     ) -> State {
-        let aim = self.mover.aim();
+        let aim = self.mover.aim;
         let mut settled = Vec::with_capacity(patches.len());
         for patch in patches {
             let may_halve = |rail: u32| patch.rail(rail).is_some_and(self.may_halve);

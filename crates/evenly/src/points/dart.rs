@@ -6,11 +6,15 @@
 //! Cost: O(n tries) at most. It does not promise that all gaps are filled: [`poisson_disk`](super::poisson_disk::poisson_disk) does.
 
 use super::bins::Bins;
+use super::maximal::SPACING;
 use super::point_set::PointSet;
 use super::poisson_disk::{rounding_margin, validate_spacing};
 use super::random::Random;
+use super::start::{Starting, Told};
 use super::uniform::Uniform;
+use crate::density::Density;
 use crate::error::Error;
+use crate::parameter::{Entry, Group, Parameter};
 use crate::space::{Domain, Space};
 
 /// What [`dart`] can be told.
@@ -120,5 +124,48 @@ impl Darts {
         let mut bins = Bins::new(&self.domain, side);
         self.bins.places().iter().for_each(|&place| bins.push(place));
         self.bins = bins;
+    }
+}
+
+/// Its entry among the methods that make points; what it can be told, less the number and the seed.
+#[derive(Clone, Copy)]
+pub(crate) struct Dart(DartParams);
+
+impl Starting for Dart {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "dart",
+        title: "Dart throwing (Cook)",
+        paper: "Cook 1986, doi 10.1145/7529.8927; McCool and Fiume 1992",
+        knows_density: false,
+        begin: |_| Self(DartParams::default()),
+        seed: Some(|p| &mut p.0.seed),
+        parameters: &[
+            Parameter::own_number("spacing", "R", |p: &mut Self| &mut p.0.spacing, SPACING).of(Group::Starts),
+            Parameter::count(
+                "tries",
+                "K",
+                |p: &mut Self| &mut p.0.tries,
+                "Misses in a row after which a set is full, or without a spacing the spacing shrinks",
+            )
+            .of(Group::Starts)
+            .rare(),
+        ],
+    };
+
+    fn exactly(space: &Space, _: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
+        dart(space, &DartParams { n_points: Some(n_points), seed, ..DartParams::default() })
+    }
+
+    fn make(&self, fixed: &PointSet, n_points: Option<usize>, _: u64) -> Result<Option<Told>, Error> {
+        if self.0.spacing.is_none() && n_points.is_none() {
+            return Err(Error::Missing { names: &["spacing", "n_points"], question: "how near to each other, or how many?" });
+        }
+        if self.0.spacing.is_some() && n_points.is_some() {
+            return Err(Error::Excluded { names: ["spacing", "n_points"], why: "how many points fit is chance" });
+        }
+        if fixed.n_points() > 0 {
+            return Ok(None);
+        }
+        Ok(Some((dart(fixed.space(), &DartParams { n_points, ..self.0 })?, None)))
     }
 }

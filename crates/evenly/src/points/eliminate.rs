@@ -13,11 +13,14 @@ use glam::DVec2;
 
 use super::bins::Bins;
 use super::order::hilbert_order;
-use super::point_set::PointSet;
+use super::point_set::{MAX_POINTS, PointSet};
 use super::radius_bins::{RadiusBins, bins_for, radius};
-use crate::density::Field;
+use super::start::Starting;
+use super::white::white_by_density;
+use crate::density::{Density, Field};
 use crate::error::Error;
-use crate::space::Domain;
+use crate::parameter::Entry;
+use crate::space::{Domain, Space};
 
 /// Candidates a point that the paper finds enough.
 pub const CANDIDATES_A_POINT: usize = 5;
@@ -144,5 +147,27 @@ impl Crowd {
                 bins.near(place, radius).filter(|&(other, _)| other != k).for_each(|(other, distance)| call(other, distance));
             }
         }
+    }
+}
+
+/// Its entry among the methods that make points.
+#[derive(Clone, Copy)]
+pub(crate) struct Eliminate;
+
+impl Starting for Eliminate {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "eliminate",
+        title: "Weighted sample elimination (Yuksel), in progressive order",
+        paper: "Yuksel 2015, doi 10.1111/cgf.12538",
+        knows_density: true,
+        begin: |_| Self,
+        seed: None,
+        parameters: &[],
+    };
+    const HOLDS_CANDIDATES: bool = true;
+
+    fn exactly(space: &Space, density: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
+        let n_candidates = n_points.saturating_mul(CANDIDATES_A_POINT).min(MAX_POINTS.max(n_points));
+        eliminate(&white_by_density(space, density, n_candidates, seed)?, n_points)
     }
 }

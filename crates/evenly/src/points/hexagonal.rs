@@ -3,7 +3,10 @@
 use glam::DVec2;
 
 use super::point_set::PointSet;
+use super::start::Starting;
+use crate::density::Density;
 use crate::error::Error;
+use crate::parameter::Entry;
 use crate::space::Space;
 
 /// `n_points` points in rows, every second row shifted by half a step; a perfect hexagonal lattice where the sides allow one.
@@ -47,4 +50,25 @@ fn n_rows(n_points: usize, size: DVec2, is_periodic: bool) -> usize {
         .min_by(|&a, &b| near(a).total_cmp(&near(b)))
         .unwrap_or(nearest)
         .min(n_points)
+}
+
+/// Its entry among the methods that make points.
+#[derive(Clone, Copy)]
+pub(crate) struct Hexagonal;
+
+impl Starting for Hexagonal {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "hexagonal",
+        title: "The hexagonal lattice",
+        paper: "",
+        knows_density: false,
+        begin: |_| Self,
+        seed: None,
+        parameters: &[],
+    };
+    const TAKES_POLYGONS: bool = false;
+
+    fn exactly(space: &Space, _: &Density, n_points: usize, _: u64) -> Result<PointSet, Error> {
+        hexagonal(space, n_points)
+    }
 }

@@ -7,8 +7,11 @@ use glam::DVec2;
 
 use super::point_set::PointSet;
 use super::random::Random;
+use super::start::Starting;
 use super::strata;
+use crate::density::Density;
 use crate::error::Error;
+use crate::parameter::Entry;
 use crate::space::Space;
 
 /// `n_points` points, one in each cell of a grid of `n_points` cells of equal area.
@@ -36,4 +39,25 @@ pub fn jittered(space: impl Into<Space>, n_points: usize, seed: u64) -> Result<P
         DVec2::new(x, y) * size
     });
     Ok(PointSet::from_normalized(space, points))
+}
+
+/// Its entry among the methods that make points.
+#[derive(Clone, Copy)]
+pub(crate) struct Jittered;
+
+impl Starting for Jittered {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "jittered",
+        title: "One point in each cell of a grid, whose order outlives an optimiser as peaks in the spectrum",
+        paper: "",
+        knows_density: false,
+        begin: |_| Self,
+        seed: None,
+        parameters: &[],
+    };
+    const IS_INDEPENDENT: bool = true;
+
+    fn exactly(space: &Space, _: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
+        jittered(space, n_points, seed)
+    }
 }

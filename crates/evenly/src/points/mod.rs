@@ -1,31 +1,42 @@
 //! [`PointSet`], and the starting points that every method can begin from.
 
+mod around;
 mod bins;
 mod dart;
 mod eliminate;
 mod hexagonal;
 mod jittered;
+mod maximal;
 mod order;
 mod point_set;
 mod poisson_disk;
 mod radius_bins;
 mod random;
 mod separate;
+mod start;
 mod strata;
 mod uniform;
 mod varying_disk;
 mod warp;
 mod white;
 
+pub(crate) use around::around;
+pub(crate) use dart::Dart;
 pub use dart::{DartParams, dart};
+pub(crate) use eliminate::Eliminate;
 pub use eliminate::{CANDIDATES_A_POINT, eliminate};
+pub(crate) use hexagonal::Hexagonal;
 pub use hexagonal::hexagonal;
+pub(crate) use jittered::Jittered;
 pub use jittered::jittered;
+pub(crate) use maximal::PoissonDisk;
 pub(crate) use order::hilbert_order;
 pub use point_set::{MAX_POINTS, PointSet};
 pub use poisson_disk::{PoissonDiskParams, poisson_disk, poisson_disk_around, poisson_disk_of};
 pub(crate) use random::Random;
 pub(crate) use separate::{leave_line, make_distinct, part, separate};
+pub(crate) use start::{AnyStart, Starting, Told};
 pub use varying_disk::{poisson_disk_by_density, poisson_disk_of_density};
 pub use warp::{warp, warp_isotropic};
+pub(crate) use white::White;
 pub use white::{white, white_by_density};

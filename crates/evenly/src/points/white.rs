@@ -4,9 +4,11 @@ use glam::DVec2;
 
 use super::point_set::PointSet;
 use super::random::Random;
+use super::start::Starting;
 use super::uniform::Uniform;
 use crate::density::{Density, Field};
 use crate::error::Error;
+use crate::parameter::Entry;
 use crate::space::{Domain, Space};
 
 /// `n_points` independent uniform points.
@@ -52,4 +54,26 @@ pub(super) fn draw(domain: &Domain, field: &Field, random: &mut Random) -> Resul
         value: "next to 0 in the whole domain".into(),
         expected: "more than 0 somewhere in it",
     })
+}
+
+/// Its entry among the methods that make points.
+#[derive(Clone, Copy)]
+pub(crate) struct White;
+
+impl Starting for White {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "white",
+        title: "Independent uniform points",
+        paper: "",
+        knows_density: true,
+        begin: |_| Self,
+        seed: None,
+        parameters: &[],
+    };
+    const HAS_LONG_WAVES: bool = true;
+    const IS_INDEPENDENT: bool = true;
+
+    fn exactly(space: &Space, density: &Density, n_points: usize, seed: u64) -> Result<PointSet, Error> {
+        white_by_density(space, density, n_points, seed)
+    }
 }

@@ -1,26 +1,32 @@
 //! Points on a surface, without a mesh: each with its facet, its barycentric coordinates and the normal.
 
-use serde::Serialize;
-
-use super::start::{Wanted, start};
-use super::{RemeshParams, SurfacePoint, remesh};
+use super::{RemeshParams, SurfacePoint, relative_sizes, remesh, validate_sizes};
 use crate::error::Error;
 use crate::geometry::spacing::hexagonal_spacing;
+use crate::methods::LocalMethod;
 use crate::run::{Outcome, Phase, Report, RunContext};
 use crate::surface::{Features, Place, Surface, poisson_disk, white};
 
 /// How points are spread over a surface.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum SurfaceSampling {
-    /// Independent uniform points, so many.
+    /// Independent points, so many.
     White(usize),
-    /// A maximal Poisson-disk sample with a spacing, in input units.
+    /// A maximal Poisson-disk sample with a spacing, in input units; where sizes vary, their mean, and two points are as far apart as the smaller of theirs.
     PoissonDisk(f64),
-    /// So many by elimination along the surface's own edges.
-    Eliminate(usize),
-    /// So many by push-pull optimization: the vertices of a [`remesh`], without features.
-    PushPull(usize),
+    /// So many as the vertices of a [`remesh`], without features.
+    Vertices(usize, LocalMethod),
+}
+
+/// What [`sample_surface`] can be told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SampleParams {
+    /// The method.
+    pub sampling: SurfaceSampling,
+    /// How far apart points are to be, in proportion, at each vertex of the surface; empty where they are to be spread alike.
+    pub sizes: Vec<f64>,
+    /// The same seed gives the same points.
+    pub seed: u64,
 }
 
 /// The smallest distance of a maximal Poisson-disk sample, in the spacings of the hexagonal lattice with as many points.
@@ -36,70 +42,67 @@ impl SurfaceSampling {
 /// Spreads points over a surface.
 ///
 /// # Errors
-/// [`Error::InvalidParameter`] for a spacing that is not positive, or so small that more than 40 million points would fit, and for no points.
+/// [`Error::InvalidParameter`] for a spacing that is not positive, or so small that more than 40 million points would fit, for no points, and as
+/// [`RemeshParams::validate`] has it for the sizes and the method.
 ///
 /// # Example
 /// ```
-/// use evenly::{RunContext, Surface, SurfaceSampling, TriangleMesh, sample_surface};
+/// use evenly::{RunContext, SampleParams, Surface, SurfaceSampling, TriangleMesh, sample_surface};
 ///
 /// let vertices = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 /// let surface = Surface::new(&TriangleMesh { vertices, triangles, attributes: Vec::new() })?;
-/// let (points, _) = sample_surface(&surface, SurfaceSampling::PoissonDisk(0.1), 7, &mut RunContext::default())?;
+/// let params = SampleParams { sampling: SurfaceSampling::PoissonDisk(0.1), sizes: Vec::new(), seed: 7 };
+/// let (points, _) = sample_surface(&surface, &params, &mut RunContext::default())?;
 /// assert!(points.len() > 100 && points.iter().all(|point| point.facet < 4));
 /// # Ok::<(), evenly::Error>(())
 /// ```
-pub fn sample_surface(
-    surface: &Surface,
-    sampling: SurfaceSampling,
-    seed: u64,
-    run: &mut RunContext,
-) -> Result<(Vec<SurfacePoint>, Report), Error> {
-    let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
+pub fn sample_surface(surface: &Surface, params: &SampleParams, run: &mut RunContext) -> Result<(Vec<SurfacePoint>, Report), Error> {
+    let SampleParams { sampling, sizes, seed } = params;
+    let invalid = |name, value: String, expected| Error::InvalidParameter { name, value, expected };
+    let require_some = |n: usize| match n {
+        1..=crate::MAX_POINTS => Ok(()),
+        _ => Err(invalid("n_points", n.to_string(), "1 or more, and at most 40 million")),
+    };
+    validate_sizes(surface, sizes)?;
+    let relative = relative_sizes(surface, sizes);
     let features = Features::borders(surface);
-    let shown = |places: Vec<Place>| places.into_iter().map(|place| SurfacePoint::new(surface, &features, &place)).collect::<Vec<_>>();
-    let done = |method, points: Vec<SurfacePoint>| {
+    let done = |method, places: Vec<Place>| {
+        let points: Vec<SurfacePoint> = places.into_iter().map(|place| SurfacePoint::new(surface, &features, &place)).collect();
         let mut report = Report::new(method, points.len());
         report.outcome = Outcome::Converged;
-        Ok((points, report))
+        (points, report)
     };
     // Where no mesh has so few vertices.
     let by_distance = |n: usize| {
-        let mut report = Report::new("eliminate", n);
-        report.outcome = Outcome::Converged;
+        let (points, mut report) = done("eliminate", farthest(white(surface, &relative, CANDIDATES * n, *seed), n));
         report.notes.push("no mesh of the surface has so few vertices; the points are spread by straight distances".into());
-        (shown(farthest(white(surface, CANDIDATES * n, seed), n)), report)
+        Ok((points, report))
     };
-    let is_too_few = |e: &Error| matches!(e, Error::InvalidParameter { name: "n_points", .. });
     run.enter(Phase::Separate);
-    match sampling {
-        SurfaceSampling::White(n) if !(1..=crate::MAX_POINTS).contains(&n) => {
-            invalid("n_points", n.to_string(), "1 or more, and at most 40 million")
+    match *sampling {
+        SurfaceSampling::White(n) => {
+            require_some(n)?;
+            Ok(done("white", white(surface, &relative, n, *seed)))
         }
-        SurfaceSampling::White(n) => done("white", shown(white(surface, n, seed))),
         SurfaceSampling::PoissonDisk(spacing) => {
             let inside = surface.frame.length_inward(spacing);
             let n_expected = surface.inner_area() / (0.7 * inside * inside);
             if !(spacing > 0.0 && n_expected <= crate::MAX_POINTS as f64) {
-                return invalid("spacing", spacing.to_string(), "positive, and such that at most 40 million points fit");
+                return Err(invalid("spacing", spacing.to_string(), "positive, and such that at most 40 million points fit"));
             }
-            done("poisson-disk", shown(poisson_disk(surface, inside, seed)))
+            Ok(done("poisson-disk", poisson_disk(surface, &relative, inside, *seed)))
         }
-        SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if !(1..=crate::MAX_POINTS).contains(&n) => {
-            invalid("n_points", n.to_string(), "1 or more, and at most 40 million")
-        }
-        SurfaceSampling::Eliminate(n) | SurfaceSampling::PushPull(n) if n < LEAST_OF_PART * surface.n_components() => Ok(by_distance(n)),
-        SurfaceSampling::Eliminate(n) => {
-            let sizes = vec![1.0; surface.n_vertices()];
-            match start(Wanted { surface, features: &features, sizes: &sizes, n_points: n, given: &[], seed })? {
-                Err(_) => Ok(by_distance(n)),
-                Ok(start) => done("eliminate", start.vertices.iter().map(|vertex| vertex.shown(surface)).collect()),
+        SurfaceSampling::Vertices(n_points, ref method) => {
+            require_some(n_points)?;
+            if n_points < LEAST_OF_PART * surface.n_components() {
+                return by_distance(n_points);
             }
-        }
-        SurfaceSampling::PushPull(n_points) => {
-            let params = RemeshParams { n_points, features_deg: None, tolerance: None, seed, ..RemeshParams::default() };
+            let (method, sizes) = (method.clone(), sizes.clone());
+            let params =
+                RemeshParams { n_points, method, sizes, features_deg: None, max_deviation: None, seed: *seed, ..RemeshParams::default() };
             match remesh(surface, &params, run) {
-                Err(e) if is_too_few(&e) => Ok(by_distance(n_points)),
+                Err(Error::InvalidParameter { name: "n_points", .. }) => by_distance(n_points),
                 made => made.map(|(remeshed, report)| (remeshed.places, report)),
             }
         }

@@ -2,10 +2,9 @@
 
 use super::RemeshParams;
 use super::live::LiveSurface;
-use super::method::RemeshMethod;
 use super::polish::Bounds;
 use crate::error::Error;
-use crate::optimize::{OptBetaParams, PushPull, PushPullParams};
+use crate::methods::{ByRule, Local, OptBetaParams, PushPull, PushPullParams};
 use crate::points::Random;
 use crate::run::{Outcome, Report, RunContext};
 use crate::star::Rule;
@@ -39,24 +38,25 @@ pub(super) fn settle<'a>(
     run: &mut RunContext,
     report: &mut Report,
 ) -> Result<LiveSurface<'a>, Error> {
-    if params.method == RemeshMethod::Eliminate {
+    let local = params.method.local();
+    if matches!(local, Local::Stay) {
         live.legalize();
         report.outcome = Outcome::Converged;
         return Ok(live);
     }
     let mut sweep = Sweep::new(live);
-    find_places(&mut sweep, params, run, report)?;
+    find_places(&mut sweep, &local, params.seed, run, report)?;
     // Where the surface stands out, a vertex stays, and the others find their places around it.
     for _ in 0..ANCHORINGS {
-        let n_anchored = params.tolerance.filter(|_| !run.is_cancelled()).map_or(0, |tolerance| sweep.ground_mut().anchor(tolerance));
+        let n_anchored = params.max_deviation.filter(|_| !run.is_cancelled()).map_or(0, |length| sweep.ground_mut().anchor(length));
         if n_anchored == 0 {
             break;
         }
         sweep.change_rule(report.iterations);
-        find_places(&mut sweep, params, run, report)?;
+        find_places(&mut sweep, &local, params.seed, run, report)?;
     }
     // What is fixed does not move, though it may be too near to others that are: off the creases it is let go.
-    let targets = targets(&params.method);
+    let targets = if let Local::Targets(targets) = &local { Some(*targets) } else { None };
     for _ in 0..RELEASES {
         let has_missed = |targets: &PushPullParams| report.outcome == Outcome::Converged && !sweep.ground_mut().meets(targets);
         let Some(missed) = targets.filter(has_missed) else { break };
@@ -64,7 +64,7 @@ pub(super) fn settle<'a>(
             break;
         }
         sweep.change_rule(report.iterations);
-        find_places(&mut sweep, params, run, report)?;
+        find_places(&mut sweep, &local, params.seed, run, report)?;
     }
     let mut live = sweep.into_mesh();
     let n_released = live.n_released;
@@ -88,24 +88,12 @@ pub(super) fn settle<'a>(
     Ok(live)
 }
 
-/// The targets of a method that has some.
-fn targets(method: &RemeshMethod) -> Option<PushPullParams> {
-    match method {
-        RemeshMethod::PushPull(targets) => Some(*targets),
-        RemeshMethod::WellSpaced(wanted) => Some(wanted.targets()),
-        _ => None,
-    }
-}
-
-fn find_places(sweep: &mut Sweep<LiveSurface>, params: &RemeshParams, run: &mut RunContext, report: &mut Report) -> Result<(), Error> {
-    match params.method {
-        RemeshMethod::PushPull(targets) => push_and_pull(sweep, &targets, params.seed, run, report)?,
-        RemeshMethod::WellSpaced(wanted) => push_and_pull(sweep, &wanted.targets(), params.seed, run, report)?,
-        RemeshMethod::Lloyd(wanted) => relax(sweep, &wanted.rule(), wanted.iterations, params.seed, run, report),
-        RemeshMethod::DistMesh(wanted) => relax(sweep, &wanted.rule(), wanted.iterations, params.seed, run, report),
-        // It has no passes.
-        RemeshMethod::Eliminate => {}
-        RemeshMethod::OptBeta(wanted) => to_least_ratio(sweep, &wanted, params.seed, run, report)?,
+fn find_places(sweep: &mut Sweep<LiveSurface>, local: &Local, seed: u64, run: &mut RunContext, report: &mut Report) -> Result<(), Error> {
+    match local {
+        Local::Targets(targets) => push_and_pull(sweep, targets, seed, run, report)?,
+        Local::Passes(rule, n_passes) => relax(sweep, &ByRule(&**rule), *n_passes, seed, run, report),
+        Local::LeastRatio(wanted) => to_least_ratio(sweep, wanted, seed, run, report)?,
+        Local::Stay => {}
     }
     Ok(())
 }

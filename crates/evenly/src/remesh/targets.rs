@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::live::LiveSurface;
 use crate::geometry::spacing::triangle_side;
-use crate::optimize::PushPullParams;
+use crate::methods::PushPullParams;
 
 /// Lengths that are off by less than this, in spacings, are as wanted.
 const ROUNDING: f64 = 1e-9;

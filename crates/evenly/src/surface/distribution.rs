@@ -332,7 +332,7 @@ mod tests {
     }
 
     fn noise(surface: &Surface, n: usize, seed: u64) -> Vec<[f64; 3]> {
-        white(surface, n, seed).iter().map(|place| surface.frame.outward(place.at)).collect()
+        white(surface, &vec![1.0; surface.n_vertices()], n, seed).iter().map(|place| surface.frame.outward(place.at)).collect()
     }
 
     #[test]

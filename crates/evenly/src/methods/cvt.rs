@@ -14,8 +14,10 @@ use glam::DVec2;
 use serde::Serialize;
 
 use self::lbfgs::{Memory, dot};
+use super::optimizer::{ITERATIONS, Optimizing};
 use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
 use crate::error::Error;
+use crate::parameter::{Entry, Parameter};
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 use crate::space::Domain;
@@ -60,6 +62,35 @@ const ARMIJO: f64 = 1e-4;
 const MAX_HALVINGS: usize = 8;
 /// The longest step of a point, in spacings.
 const LONGEST: f64 = 0.25;
+
+impl Optimizing for CvtParams {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "cvt",
+        title: "Lloyd's energy by a quasi-Newton method (Liu et al.)",
+        paper: "Liu, Wang, Levy, Sun, Yan, Lu and Yang 2009, doi 10.1145/1559755.1559758",
+        knows_density: false,
+        begin: |_| Self::default(),
+        seed: None,
+        parameters: &[
+            Parameter::count("iterations", "I", |p: &mut Self| &mut p.iterations, ITERATIONS),
+            Parameter::number(
+                "tolerance",
+                "T",
+                |p: &mut Self| &mut p.tolerance,
+                "Stop when points are no farther from their centroids than this many hexagonal spacings, on average (rms)",
+            )
+            .rare(),
+        ],
+    };
+
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        cvt(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+}
 
 /// Moves `points` towards a centroidal Voronoi tessellation, in place; their number and order stay. The energies in the report are relative to the hexagonal
 /// lattice's, as [`Measures::cvt_energy`](crate::Measures::cvt_energy) is, and never rise.

@@ -7,11 +7,14 @@
 
 use serde::Serialize;
 
+use super::local::Local;
 use super::obstacles::conclude;
+use super::optimizer::{CAPACITY_TOLERANCE, ITERATIONS, Optimizing, PASSES};
 use super::push_pull::{PushPullParams, push_and_pull};
 use super::targets::{Targets, UnmetTarget};
 use crate::error::Error;
 use crate::measure::{Measures, PointMeasures};
+use crate::parameter::{Entry, Group, Parameter};
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
 
@@ -60,6 +63,37 @@ impl Targets for CapacityParams {
 
     fn miss(&self, point: &PointMeasures) -> f64 {
         self.targets().miss(point)
+    }
+}
+
+impl Optimizing for CapacityParams {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "capacity",
+        title: "Voronoi cells of equal area, and nothing else (Balzer et al.)",
+        paper: "Balzer, Schloemer and Deussen 2009, doi 10.1145/1531326.1531392",
+        knows_density: true,
+        begin: |_| Self::default(),
+        seed: Some(|p| &mut p.seed),
+        parameters: &[
+            Parameter::own_count("iterations", "I", |p: &mut Self| &mut p.max_passes, ITERATIONS).by_default(PASSES),
+            Parameter::number("capacity_tolerance", "T", |p: &mut Self| &mut p.capacity_tolerance, CAPACITY_TOLERANCE).of(Group::Targets),
+        ],
+    };
+
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        capacity(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
+    fn targets(&self) -> Option<&dyn Targets> {
+        Some(self)
+    }
+
+    fn local(&self) -> Option<Local> {
+        Some(Local::Targets(self.targets()))
     }
 }
 

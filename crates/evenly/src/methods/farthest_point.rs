@@ -16,10 +16,12 @@ use serde::Serialize;
 
 use self::gaps::Gaps;
 use super::obstacles::conclude;
+use super::optimizer::{ITERATIONS, MIN_DISTANCE, Optimizing};
 use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iterations};
 use super::targets::{ROUNDING, Targets, UnmetTarget, is_lost_to_rounding, under};
 use crate::error::Error;
 use crate::measure::{Measures, PointMeasures};
+use crate::parameter::{Entry, Parameter};
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 
@@ -79,6 +81,41 @@ impl Targets for FarthestPointParams {
 
     fn miss(&self, point: &PointMeasures) -> f64 {
         self.min_distance.map_or(0.0, |wanted| under(point.nearest, wanted))
+    }
+}
+
+impl Optimizing for FarthestPointParams {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "farthest-point",
+        title: "Farthest-point optimization (Schloemer et al.)",
+        paper: "Schloemer, Heck and Deussen 2011, doi 10.1145/2018323.2018345",
+        knows_density: false,
+        begin: |_| Self::default(),
+        seed: None,
+        parameters: &[
+            Parameter::count("iterations", "I", |p: &mut Self| &mut p.iterations, ITERATIONS),
+            Parameter::target("min_distance", "R", |p: &mut Self| &mut p.min_distance, MIN_DISTANCE),
+            Parameter::number(
+                "relaxation",
+                "W",
+                |p: &mut Self| &mut p.relaxation,
+                "How far a point goes that stays in its own gap: 1 is the middle",
+            )
+            .rare(),
+            Parameter::flag("local", |p: &mut Self| &mut p.is_local, "A point only looks at the gap that it leaves itself").rare(),
+        ],
+    };
+
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        farthest_point(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
+    fn targets(&self) -> Option<&dyn Targets> {
+        self.min_distance.map(|_| self as &dyn Targets)
     }
 }
 

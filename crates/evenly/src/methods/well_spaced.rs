@@ -13,12 +13,15 @@
 
 use serde::Serialize;
 
+use super::local::Local;
 use super::obstacles::conclude;
+use super::optimizer::{BETA, ITERATIONS, Optimizing, PASSES};
 use super::push_pull::{PushPullParams, push_and_pull};
 use super::targets::{Targets, UnmetTarget, unmet_beta, validate_beta};
 use crate::error::Error;
 use crate::measure::{Measures, PointMeasures, measure};
-use crate::points::PointSet;
+use crate::parameter::{Entry, Group, Parameter};
+use crate::points::{PointSet, warp_isotropic};
 use crate::run::{Outcome, Report, RunContext};
 
 /// What [`well_spaced`] can be told.
@@ -121,6 +124,40 @@ impl Targets for WellSpacedParams {
 pub fn angle_bounds_deg(beta: f64) -> Option<[f64; 2]> {
     let least = libm::asin(0.5 / beta).to_degrees();
     (beta < 1.0).then_some([least, 180.0 - 2.0 * least])
+}
+
+impl Optimizing for WellSpacedParams {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "well-spaced",
+        title: "Low beta, the ratio of the largest gap to the smallest distance (Ebeida et al.)",
+        paper: "Ebeida, Awad, Ge, Mahmoud, Mitchell, Knupp and Wei 2014, doi 10.1016/j.cad.2013.08.015",
+        knows_density: true,
+        begin: |_| Self::default(),
+        seed: Some(|p| &mut p.seed),
+        parameters: &[
+            Parameter::own_count("iterations", "I", |p: &mut Self| &mut p.max_passes, ITERATIONS).by_default(PASSES),
+            Parameter::number("beta", "B", |p: &mut Self| &mut p.beta, BETA)
+                .of(Group::Targets)
+                .details("It is known to reach 0.67 on a torus and 0.72 in a rectangle."),
+        ],
+    };
+    const WARP: Option<fn(&mut PointSet)> = Some(warp_isotropic);
+
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        well_spaced(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
+    fn targets(&self) -> Option<&dyn Targets> {
+        Some(self)
+    }
+
+    fn local(&self) -> Option<Local> {
+        Some(Local::Targets(self.targets()))
+    }
 }
 
 /// Optimises `points` in place; their number and order stay.

@@ -28,10 +28,12 @@ use serde::Serialize;
 use self::border::Rim;
 use self::mesh::Mesh;
 use self::model::Sides;
+use super::optimizer::{ITERATIONS, Optimizing};
 use super::prepare::{Prepared, keep_distinct, prepare};
 use crate::density::{Field, SoftField};
 use crate::error::Error;
-use crate::points::PointSet;
+use crate::parameter::{Choice, Entry, Parameter};
+use crate::points::{PointSet, warp};
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 use crate::triangulation::delaunay;
 
@@ -100,6 +102,54 @@ const GOOD_SIDES: std::ops::RangeInclusive<f64> = 1.0..=1.625;
 const ROUNDING: f64 = 1e-12;
 /// Where models change size with each move the energy may sway for ever: a run has settled that has found nothing lower in so many iterations.
 const IDLE: usize = 16;
+
+const MODES: [Choice; 2] = [
+    Choice { name: "paper", doc: "plain steps, the energy never rises (but where a rectangle is triangulated anew)" },
+    Choice { name: "fast", doc: "momentum" },
+];
+
+impl Optimizing for ProcrustesParams {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "procrustes",
+        title: "Procrustes analysis (Papazov and Hege)",
+        paper: "Papazov and Hege 2017, ZIB-Report 17-55",
+        knows_density: true,
+        begin: |_| Self::default(),
+        seed: None,
+        parameters: &[
+            Parameter::count("iterations", "I", |p: &mut Self| &mut p.max_iterations, ITERATIONS),
+            Parameter::choice(
+                "mode",
+                &MODES,
+                (|p: &Self| p.mode as usize, |p: &mut Self, place| p.mode = [Mode::Paper, Mode::Fast][place]),
+                "How points are moved towards their targets",
+            ),
+            Parameter::number(
+                "side",
+                "D",
+                |p: &mut Self| &mut p.side,
+                "Side of the model triangle in hexagonal spacings, good within 1 to 1.625",
+            )
+            .rare(),
+            Parameter::number(
+                "tolerance",
+                "T",
+                |p: &mut Self| &mut p.tolerance,
+                "Stop when an iteration, in mode fast two in a row, gains less than this share of the domain's area",
+            )
+            .rare(),
+        ],
+    };
+    const WARP: Option<fn(&mut PointSet)> = Some(warp);
+
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        procrustes(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+}
 
 /// Optimises `points` in place; their number and order stay.
 ///

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use crate::error::Error;
-use crate::optimize::prepare::triangulated;
+use crate::methods::prepare::triangulated;
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
 use crate::star::Senses;

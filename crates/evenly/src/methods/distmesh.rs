@@ -10,9 +10,12 @@
 
 use serde::Serialize;
 
+use super::local::Local;
+use super::optimizer::{ITERATIONS, Optimizing};
 use super::prepare::validate_iterations;
 use super::relax::relax;
 use crate::error::Error;
+use crate::parameter::{Entry, Parameter};
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
 use crate::star::{Rule, Senses, Star};
@@ -59,6 +62,53 @@ impl DistMeshParams {
 
     pub(crate) fn rule(&self) -> Springs {
         Springs { length: self.pressure, step: self.step, tolerance: self.tolerance }
+    }
+}
+
+impl Optimizing for DistMeshParams {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "distmesh",
+        title: "Springs between neighbours (Persson and Strang)",
+        paper: "Persson and Strang 2004, doi 10.1137/S0036144503429121",
+        knows_density: true,
+        begin: |_| Self::default(),
+        seed: Some(|p| &mut p.seed),
+        parameters: &[
+            Parameter::count("iterations", "I", |p: &mut Self| &mut p.iterations, ITERATIONS),
+            Parameter::number(
+                "pressure",
+                "F",
+                |p: &mut Self| &mut p.pressure,
+                "The wanted length of edges in hexagonal spacings, up to 2: more than 1 keeps them under pressure (the paper's Fscale)",
+            )
+            .rare(),
+            Parameter::number(
+                "step",
+                "W",
+                |p: &mut Self| &mut p.step,
+                "The part of a spring's missing length that a point moves at a time (the paper's deltat)",
+            )
+            .rare(),
+            Parameter::number(
+                "tolerance",
+                "T",
+                |p: &mut Self| &mut p.tolerance,
+                "Stop when no point goes farther than this many hexagonal spacings",
+            )
+            .rare(),
+        ],
+    };
+
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        distmesh(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
+    fn local(&self) -> Option<Local> {
+        Some(Local::Passes(Box::new(self.rule()), self.iterations))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::measure::measure_each;
-use crate::optimize::push_pull::{PushPullParams, push_and_pull};
+use crate::methods::push_pull::{PushPullParams, push_and_pull};
 use crate::points::{PointSet, eliminate, white_by_density};
 use crate::run::{Outcome, Report, RunContext};
 

@@ -13,9 +13,12 @@
 
 use serde::Serialize;
 
+use super::local::Local;
+use super::optimizer::{ITERATIONS, Optimizing};
 use super::prepare::validate_iterations;
 use super::relax::relax;
 use crate::error::Error;
+use crate::parameter::{Entry, Parameter};
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
 use crate::star::{Rule, Senses, Star};
@@ -55,6 +58,39 @@ impl LloydParams {
 
     pub(crate) fn rule(&self) -> ToCentroid {
         ToCentroid { tolerance: self.tolerance }
+    }
+}
+
+impl Optimizing for LloydParams {
+    const ENTRY: &'static Entry<Self> = &Entry {
+        name: "lloyd",
+        title: "Lloyd's method: to the centroids of the Voronoi cells",
+        paper: "Lloyd 1982, doi 10.1109/TIT.1982.1056489; Secord 2002, doi 10.1145/508530.508537",
+        knows_density: true,
+        begin: |_| Self::default(),
+        seed: Some(|p| &mut p.seed),
+        parameters: &[
+            Parameter::count("iterations", "I", |p: &mut Self| &mut p.iterations, ITERATIONS),
+            Parameter::number(
+                "tolerance",
+                "T",
+                |p: &mut Self| &mut p.tolerance,
+                "Stop when no point goes farther than this many hexagonal spacings",
+            )
+            .rare(),
+        ],
+    };
+
+    fn run(&self, points: &mut PointSet, run: &mut RunContext) -> Result<Report, Error> {
+        lloyd(points, self, run)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.validate()
+    }
+
+    fn local(&self) -> Option<Local> {
+        Some(Local::Passes(Box::new(self.rule()), self.iterations))
     }
 }
 
