@@ -288,7 +288,7 @@ fn bad_input_gets_one_line_and_no_file() {
         ("compare", "--n-points is missing"),
         ("compare -n 2", "takes 3 or more"),
         ("compare good.txt -n 20", "cannot be used with"),
-        ("compare -n 10 --methods warp", "warp"),
+        ("compare -n 10 --methods none", "none"),
         ("compare -n 10 --methods lloyd,cvt --beta 0.7", "--beta is for --method well-spaced or opt-beta"),
         ("compare -n 10 --runs 0", "'0'"),
         ("compare -n 10 --damping 7", "--damping is 7"),

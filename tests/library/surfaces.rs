@@ -330,7 +330,7 @@ fn sizes_say_how_far_apart_points_are() {
     let mut mesh = patch(12);
     mesh.vertices.iter_mut().for_each(|p| p[2] = 0.0);
     let surface = Surface::new(&mesh).unwrap();
-    let sizes = surface_sizes(&surface, &SurfaceSizing::Linear { axis: 0, ratio: 3.0 }, None).unwrap();
+    let sizes = surface_sizes(&surface, &SurfaceSizing::Linear { axis: 0, ratio: 3.0 }, Some(500)).unwrap();
     let made = |sampling| {
         let params = SampleParams { sampling, sizes: sizes.clone(), seed: 2 };
         sample_surface(&surface, &params, &mut RunContext::default()).unwrap().0

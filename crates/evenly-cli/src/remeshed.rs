@@ -5,9 +5,9 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use evenly::{
-    Attribute, CertificateBreach, LocalMethod, Method, MissedLengths, Outcome, RemeshParams, Remeshed, Report, RunContext, Surface,
-    SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, certificate, expected_vertices, missed_lengths, remesh,
-    self_intersections, surface_distance, surface_quality, surface_sizes,
+    Attribute, CertificateBreach, LocalMethod, Method, MissedLengths, OBTUSE_DEG, Outcome, RemeshParams, Remeshed, Report, RunContext,
+    Surface, SurfaceDistance, SurfacePoint, SurfaceQuality, SurfaceSizing, TriangleMesh, certificate, expected_vertices, missed_lengths,
+    remesh, self_intersections, surface_distance, surface_quality, surface_sizes,
 };
 use evenly_io::{read_numbers, read_triangles_or_points};
 use serde_json::Value;
@@ -33,6 +33,11 @@ const FLAGS: [(&str, &str); 7] = [
 /// The distance at which vertices are put on what stands out where sizes vary, in spacings: who varies them wants a mesh that is near.
 const SIZED_DEVIATION: f64 = 0.35;
 
+/// What asks for angles.
+const TARGETS: [&str; 4] = ["preset", "min_distance", "coverage_radius", "beta"];
+/// Without a target no angle is to be smaller, in degrees, and none obtuse.
+const LEAST_DEG: f64 = 30.0;
+
 /// A new mesh, and how it came about.
 pub struct Made {
     /// The mesh, and where its vertices lie on the one that was given.
@@ -42,6 +47,8 @@ pub struct Made {
     /// What was asked for.
     pub parameters: Value,
     method: LocalMethod,
+    /// Whether targets were given.
+    has_targets: bool,
 }
 
 /// The measures of a new mesh.
@@ -137,10 +144,20 @@ pub fn remeshed(
     if n_equal > 0 {
         report.notes.push(format!("points in the place of an earlier one, left out: {n_equal}"));
     }
-    Ok(Made { remeshed, report, parameters: serde_json::json!(params), method })
+    let has_targets = wishes.method_args.of(wishes.method).names().any(|name| TARGETS.contains(&name));
+    Ok(Made { remeshed, report, parameters: serde_json::json!(params), method, has_targets })
 }
 
 impl Made {
+    /// Whether something that was asked for was not reached: a target that was given, or, without one, what every new mesh is to be.
+    pub fn has_missed(&self, breaches: &[CertificateBreach]) -> bool {
+        let is_bad = |breach: &CertificateBreach| breach.min_angle_deg < LEAST_DEG || breach.max_angle_deg > OBTUSE_DEG;
+        match self.has_targets {
+            true => self.report.outcome == Outcome::IterationLimit || !breaches.is_empty(),
+            false => breaches.iter().any(is_bad),
+        }
+    }
+
     /// Measures the mesh, which was made of a surface.
     ///
     /// # Errors
@@ -149,6 +166,7 @@ impl Made {
         // What has no area, or touches itself, is mended for the measures alone.
         let made = Surface::repaired(&self.remeshed.mesh)?;
         let mut breaches = self.method.beta().map_or_else(Vec::new, |beta| certificate(&made, beta));
+        breaches.retain(|breach| self.remeshed.forced.binary_search(&breach.triangle).is_err());
         worst_first(&mut breaches);
         let [distance, radius] = self.method.lengths();
         let has_missed = self.report.outcome == Outcome::IterationLimit && distance.or(radius).is_some();

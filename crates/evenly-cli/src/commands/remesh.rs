@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, CertificateBreach, MissedLengths, Outcome, Report, SurfaceDistance, SurfaceQuality, TriangleMesh};
+use evenly::{CancelToken, CertificateBreach, MissedLengths, Report, SurfaceDistance, SurfaceQuality, TriangleMesh};
 use evenly_io::{MeshFormat, Target, read_triangles, round_as_stl, stl_rounding, write_triangles, write_triangles_figure};
 use serde::Serialize;
 use serde_json::Value;
@@ -64,9 +64,9 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     // Who interrupts does not wait for measures.
     let measured = if cancel.is_cancelled() { None } else { Some(pool.install(|| made.measured(&surface))?) };
     notes.extend(measured.iter().flat_map(|measured| measured.notes.iter().cloned()));
-    let Made { report, parameters, .. } = made;
     let breaches = measured.as_ref().map_or(&[][..], |measured| &measured.breaches);
-    let has_missed = matches!(report.outcome, Outcome::IterationLimit) || !breaches.is_empty();
+    let has_missed = made.has_missed(breaches);
+    let Made { report, parameters, .. } = made;
     let record = RemeshRecord {
         version: record::VERSION,
         command: record::command(),

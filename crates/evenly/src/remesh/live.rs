@@ -59,6 +59,10 @@ pub(super) struct LiveSurface<'a> {
     /// How many that stayed were let go.
     pub(super) n_released: usize,
     pub(super) bonds: Vec<[u32; 2]>,
+    /// Triangles that the input's corners force to miss the targets, once the run has ended.
+    pub(super) forced: Vec<usize>,
+    /// Which vertices are on creases and borders.
+    is_bound: Vec<bool>,
     /// How often a vertex' moves were blocked.
     blocked: Vec<AtomicU32>,
     /// The edge of equilateral triangles, as many, that cover as much.
@@ -68,7 +72,11 @@ pub(super) struct LiveSurface<'a> {
 impl<'a> LiveSurface<'a> {
     pub fn new(surface: &'a Surface, features: &'a Features, sizes: &'a [f64], start: Start) -> Self {
         let Start { half_edges, vertices, fixed, bonds, .. } = start;
+        let mut is_bound = vec![false; vertices.len()];
+        bonds.iter().flatten().for_each(|&v| is_bound[v as usize] = true);
         let mut live = Self {
+            forced: Vec::new(),
+            is_bound,
             surface,
             features,
             sizes,
@@ -111,6 +119,12 @@ impl<'a> LiveSurface<'a> {
     #[inline]
     pub fn is_fixed(&self, v: u32) -> bool {
         self.fixed[v as usize]
+    }
+
+    /// Whether a vertex is on a crease or a border.
+    #[inline]
+    pub(super) fn is_bound(&self, v: u32) -> bool {
+        self.is_bound[v as usize]
     }
 
     /// Lets a vertex stay where it is.

@@ -21,6 +21,7 @@ mod collapse;
 mod draft;
 mod eliminate;
 mod flips;
+mod forced;
 mod given;
 mod ground;
 mod live;
@@ -147,6 +148,8 @@ pub struct Remeshed {
     pub mesh: TriangleMesh,
     /// Where each vertex lies on the mesh that was given.
     pub places: Vec<SurfacePoint>,
+    /// Triangles that miss the targets because an angle of the input cannot be divided better; see [`Outcome::Forced`](crate::Outcome::Forced).
+    pub forced: Vec<usize>,
 }
 
 /// A place on a surface.
@@ -316,5 +319,5 @@ fn finished(surface: &Surface, live: &LiveSurface) -> Remeshed {
         triangles: live.half_edges().triangles().map(|t| t.map(|v| v as usize)).collect(),
         attributes: surface.attributes().iter().filter(|own| own.name != SIZE).map(attribute).chain([size(surface, live)]).collect(),
     };
-    Remeshed { mesh, places }
+    Remeshed { mesh, places, forced: live.forced.clone() }
 }

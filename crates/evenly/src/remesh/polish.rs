@@ -18,6 +18,9 @@ const STEP: f64 = 0.2;
 const HALVINGS: usize = 5;
 const DIRECTIONS: usize = 6;
 
+/// Angles that are off by less than this, in degrees, are within their bounds.
+const ROUNDING_DEG: f64 = 1e-6;
+
 /// Between which bounds angles are to be, in degrees.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
@@ -30,6 +33,16 @@ impl Bounds {
     pub fn of_beta(beta: f64) -> Self {
         let smallest = libm::asin((0.5 / beta).min(0.5 * 3f64.sqrt())).to_degrees();
         Self { smallest, largest: 180.0 - 2.0 * smallest }
+    }
+
+    /// The smallest and the largest angle, in degrees.
+    pub fn degrees(self) -> [f64; 2] {
+        [self.smallest, self.largest]
+    }
+
+    /// Whether a triangle's smallest and largest angle are within the bounds, to rounding.
+    pub fn hold(self, [least, most]: [f64; 2]) -> bool {
+        least >= self.smallest - ROUNDING_DEG && most <= self.largest + ROUNDING_DEG
     }
 
     /// How bad a triangle is: 0 if it is not.

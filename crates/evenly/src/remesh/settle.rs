@@ -24,6 +24,9 @@ const GENTLE_STAGES: usize = 3;
 const HARD_KICK: f64 = 0.1;
 /// And after so many, anchors among them are let go.
 const PATIENCE: usize = 5;
+/// A stage is in vain that leaves more than this part of the fewest restless vertices so far; on a surface with creases or borders so many of them end a run.
+const BETTER: f64 = 0.9;
+const IN_VAIN: usize = 4;
 /// So often vertices are put where the surface stands out.
 const ANCHORINGS: usize = 2;
 /// So often those are let go that keep others from their places.
@@ -73,19 +76,43 @@ pub(super) fn settle<'a>(
             "{n_released} vertices on tips, and where the surface stands out, were let go: they kept the targets from being reached"
         ));
     }
-    if report.outcome == Outcome::Converged && targets.is_some_and(|targets| !live.meets(&targets)) {
+    let Some(targets) = targets else {
+        report.note_limit();
+        return Ok(live);
+    };
+    if report.outcome == Outcome::Converged && !live.meets(&targets) {
         report.outcome = Outcome::IterationLimit;
-        report.notes.push("vertices that stay where they are, on creases, borders and tips, keep the targets from being reached".into());
     } else {
         report.note_limit();
     }
-    // Beside creases some triangles may still be obtuse, though they need not be.
-    if let Some(beta) = targets.and_then(|targets| Some(targets.coverage_radius? / targets.min_distance?))
+    if let Some(beta) = params.method.beta()
         && report.outcome == Outcome::IterationLimit
     {
-        live.polish(Bounds::of_beta(beta), params.seed);
+        // Beside creases some triangles may still be obtuse, though they need not be.
+        let bounds = Bounds::of_beta(beta);
+        live.polish(bounds, params.seed);
+        conclude(&mut live, bounds, report);
     }
     Ok(live)
+}
+
+/// Says which triangles the input forces to miss the bounds; where there are no others, the run has done what can be done.
+fn conclude(live: &mut LiveSurface, bounds: Bounds, report: &mut Report) {
+    let missed = live.missed(bounds);
+    if missed.n_others > 0 {
+        report.notes.push("vertices that stay where they are, on creases, borders and tips, keep the targets from being reached".into());
+    } else {
+        report.outcome = if missed.forced.is_empty() { Outcome::Converged } else { Outcome::Forced };
+    }
+    if !missed.forced.is_empty() {
+        let [least, most] = bounds.degrees();
+        report.notes.push(format!(
+            "forced: {} triangles at {} corners of the input, whose angles no division brings within {least:.2} and {most:.2} degrees",
+            missed.forced.len(),
+            missed.n_corners
+        ));
+    }
+    live.forced = missed.forced;
 }
 
 fn find_places(sweep: &mut Sweep<LiveSurface>, local: &Local, seed: u64, run: &mut RunContext, report: &mut Report) -> Result<(), Error> {
@@ -121,6 +148,7 @@ fn push_and_pull(
     let capacity_tolerance = if rule.min_distance.or(rule.coverage_radius).is_some() { None } else { rule.capacity_tolerance };
     let rule = PushPull { capacity_tolerance, relaxation: STRETCH * rule.relaxation, ..rule };
     let mut n_stages = 0;
+    let (mut fewest, mut n_in_vain) = (1.0, 0);
     while ending == Ending::PassLimit && report.iterations < max_passes {
         ending = sweep.run(&rule, &Plan { max_passes: max_passes.min(report.iterations + STAGE), ..plan }, run, report);
         if ending == Ending::PassLimit && report.iterations < max_passes {
@@ -130,6 +158,14 @@ fn push_and_pull(
             if n_stages >= PATIENCE {
                 sweep.ground_mut().release_restless();
             }
+        }
+        // Creases, unlike a smooth surface, may keep some from rest for good.
+        let restless = report.stable_share.last().map_or(0.0, |share| 1.0 - share);
+        let is_better = restless < BETTER * fewest;
+        n_in_vain = if is_better { 0 } else { n_in_vain + 1 };
+        fewest = if is_better { restless } else { fewest };
+        if ending == Ending::PassLimit && n_in_vain >= IN_VAIN && !sweep.ground_mut().bonds.is_empty() {
+            break;
         }
         n_stages += 1;
     }
