@@ -50,7 +50,7 @@ def test_the_command_is_there():
 
 def test_signatures_know_what_the_registry_knows():
     methods = evenly.methods().values()
-    options = set(_methods.MethodOptions.__annotations__)
+    options = set(typing.get_type_hints(_methods.MethodOptions))
     assert options == {name for method in methods for name in method.parameters}
     choices = {name: parameter.choices for method in methods for name, parameter in method.parameters.items() if parameter.kind == "choice"}
     hints = typing.get_type_hints(_methods.MethodOptions)

@@ -10,7 +10,7 @@ import numpy as np
 
 from evenly._jobs import Interrupted
 from evenly._measures import Measures, measure
-from evenly._methods import MethodOptions, option_words, options_of
+from evenly._methods import OptimizerOptions, option_words, options_of
 from evenly._points import Points, generate, optimize
 from evenly._seeds import Seed, number
 from evenly._spaces import Pair
@@ -78,7 +78,7 @@ def compare(
     size: Pair | None = None,
     origin: Pair | None = None,
     threads: int | None = None,
-    **options: "Unpack[MethodOptions]",
+    **options: "Unpack[OptimizerOptions]",
 ) -> Comparison:
     """Run several methods on the same points, and lay their measures side by side.
 

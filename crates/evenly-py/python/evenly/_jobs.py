@@ -129,7 +129,7 @@ def word(name: str, value: object, kind: Kind) -> list[str]:
         raise TypeError(f"{name} must be a whole number, not {value!r}")
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number, not {value!r}")
-    return [f"{flag}={int(value) if kind == 'count' else repr(float(value))}"]
+    return [f"{flag}={int(cast(Any, value)) if kind == 'count' else repr(float(cast(Any, value)))}"]
 
 
 def _is_whole(value: object) -> bool:

@@ -14,7 +14,7 @@ from evenly import _evenly
 from evenly._arrays import Floats, Frozen, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
-from evenly._methods import MethodOptions, OnMeshes, option_words
+from evenly._methods import OnMeshes, OptimizerOptions, option_words
 from evenly._seeds import Seed, number
 from evenly._spaces import Polygon
 
@@ -142,7 +142,7 @@ def mesh(
     regions: "Mapping[str, object] | Sequence[object] | str | os.PathLike[str] | None" = None,
     threads: int | None = None,
     callback: Callback | None = None,
-    **options: "Unpack[MethodOptions]",
+    **options: "Unpack[OptimizerOptions]",
 ) -> Mesh:
     """Mesh a polygon with triangles that conform to its border (Ebeida et al. 2014, section 7).
 

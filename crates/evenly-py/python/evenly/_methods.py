@@ -23,8 +23,8 @@ Target: TypeAlias = "float | Literal['off'] | None"
 """A number, 'off', or None for what the method has."""
 
 
-class MethodOptions(TypedDict, total=False):
-    """What methods can be told; each takes those that `methods` lists."""
+class OptimizerOptions(TypedDict, total=False):
+    """What methods can be told that move points; each takes those that `methods` lists."""
 
     iterations: int | None
     preset: Literal["fast", "balanced", "tough", "paper1", "paper2", "paper3"] | None
@@ -41,6 +41,11 @@ class MethodOptions(TypedDict, total=False):
     damping: float | None
     pressure: float | None
     step: float | None
+
+
+class MethodOptions(OptimizerOptions, total=False):
+    """What all methods can be told, those that make points too."""
+
     spacing: float | None
     coverage: float | None
     visible: bool

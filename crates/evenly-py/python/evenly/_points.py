@@ -12,7 +12,7 @@ from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
 from evenly._measures import Measures, measure
-from evenly._methods import MethodOptions, Optimizer, Start, option_words
+from evenly._methods import MethodOptions, Optimizer, OptimizerOptions, Start, option_words
 from evenly._seeds import Seed, number
 from evenly._spaces import Metric, Pair, Polygon, Space, native, space_of
 
@@ -195,7 +195,7 @@ def optimize(
     warp: bool = True,
     threads: int | None = None,
     callback: Callback | None = None,
-    **options: "Unpack[MethodOptions]",
+    **options: "Unpack[OptimizerOptions]",
 ) -> Points:
     """Make better points of points; those that come in are not changed.
 

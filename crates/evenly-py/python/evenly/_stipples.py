@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen
 from evenly._jobs import Callback, run, threads_of, told, words
-from evenly._methods import MethodOptions, option_words
+from evenly._methods import OptimizerOptions, option_words
 from evenly._seeds import Seed, number
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def stipple(
     order: Literal["tour", "progressive", "input"] = "tour",
     threads: int | None = None,
     callback: Callback | None = None,
-    **options: "Unpack[MethodOptions]",
+    **options: "Unpack[OptimizerOptions]",
 ) -> Stippling:
     """Draw a picture with dots.
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._jobs import Callback, run, threads_of, told, words
-from evenly._methods import MethodOptions, OnMeshes, OnSurfaces, option_words
+from evenly._methods import OnMeshes, OnSurfaces, OptimizerOptions, option_words
 from evenly._seeds import Seed, number
 from evenly._shapes import native
 
@@ -209,7 +209,7 @@ def remesh(
     weld: float | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
-    **options: "Unpack[MethodOptions]",
+    **options: "Unpack[OptimizerOptions]",
 ) -> SurfaceMesh:
     """Give a triangle mesh in space a new one, by default without obtuse triangles (Ahmed et al. 2017, section 5.3).
 
@@ -323,7 +323,7 @@ def sample(
     weld: float | None = None,
     threads: int | None = None,
     callback: Callback | None = None,
-    **options: "Unpack[MethodOptions]",
+    **options: "Unpack[OptimizerOptions]",
 ) -> SurfacePoints:
     """Spread points over a triangle mesh in space.
 

@@ -5,6 +5,7 @@
 use std::collections::BTreeMap;
 
 use super::draft::Draft;
+use super::rows::Gap;
 use crate::surface::Chain;
 
 /// The gaps between them, in the wanted spacings.
@@ -56,6 +57,27 @@ impl Plan {
         self.total / self.n_gaps as f64
     }
 
+    /// The gaps between the points, with their middles on the chain.
+    fn gaps(&self, draft: &Draft, chain: &Chain) -> Vec<Gap> {
+        let mut ends = vec![0.0];
+        ends.extend(self.places());
+        ends.push(self.total);
+        let mut steps = chain.steps().zip(&self.lengths).peekable();
+        let mut behind = 0.0;
+        let mut gaps = Vec::with_capacity(ends.len());
+        for pair in ends.windows(2) {
+            let middle = 0.5 * (pair[0] + pair[1]);
+            while let Some((_, length)) = steps.next_if(|(_, length)| middle > behind + **length) {
+                behind += length;
+            }
+            if let Some(&((a, b), length)) = steps.peek() {
+                let at = draft.at(a).lerp(draft.at(b), (middle - behind) / length);
+                gaps.push(Gap { edge: [a, b], middle: at, length: pair[1] - pair[0] });
+            }
+        }
+        gaps
+    }
+
     /// How far along the chain the points inside are.
     fn places(&self) -> Vec<f64> {
         if !self.given.is_empty() {
@@ -80,8 +102,9 @@ impl Plan {
     }
 }
 
-/// Pins the corners, and points between them so many spacings apart, or those that are given on edges. Nothing is done if those were more than `most`: then this returns how many.
-pub(super) fn pin_chains(draft: &mut Draft, spacing: f64, most: usize, on_edges: &BTreeMap<[u32; 2], Vec<f64>>) -> Result<(), usize> {
+/// Pins the corners, and points between them so many spacings apart, or those that are given on edges; returns the gaps between them. Nothing is done if those were more than `most`: then
+/// this returns how many.
+pub(super) fn pin_chains(draft: &mut Draft, spacing: f64, most: usize, on_edges: &BTreeMap<[u32; 2], Vec<f64>>) -> Result<Vec<Gap>, usize> {
     let chains = &draft.features.chains;
     let mut plans: Vec<Plan> = chains.iter().map(|chain| Plan::new(draft, chain, spacing, on_edges)).collect();
     let n_points = plans.iter().fold(0, |sum: usize, plan| sum.saturating_add(plan.n_gaps - 1));
@@ -92,7 +115,7 @@ pub(super) fn pin_chains(draft: &mut Draft, spacing: f64, most: usize, on_edges:
     for (chain, plan) in chains.iter().zip(&plans) {
         pin_chain(draft, chain, plan);
     }
-    Ok(())
+    Ok(chains.iter().zip(&plans).filter(|(chain, _)| !chain.is_loose).flat_map(|(chain, plan)| plan.gaps(draft, chain)).collect())
 }
 
 /// Where two chains meet at a sharp angle, the first point of the one stands at the foot of that of the other.

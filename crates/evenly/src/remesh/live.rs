@@ -42,6 +42,8 @@ pub(super) struct Start {
     pub bonds: Vec<[u32; 2]>,
     /// How many stand where points were given.
     pub n_given: usize,
+    /// Those beside creases that stay until most others have found their places.
+    pub rows: Vec<u32>,
 }
 
 /// A mesh on a surface that the sweep moves.
@@ -59,6 +61,8 @@ pub(super) struct LiveSurface<'a> {
     /// How many that stayed were let go.
     pub(super) n_released: usize,
     pub(super) bonds: Vec<[u32; 2]>,
+    /// Beside creases, as long as they stay.
+    rows: Vec<u32>,
     /// Triangles that the input's corners force to miss the targets, once the run has ended.
     pub(super) forced: Vec<usize>,
     /// Which vertices are on creases and borders.
@@ -71,7 +75,7 @@ pub(super) struct LiveSurface<'a> {
 
 impl<'a> LiveSurface<'a> {
     pub fn new(surface: &'a Surface, features: &'a Features, sizes: &'a [f64], start: Start) -> Self {
-        let Start { half_edges, vertices, fixed, bonds, .. } = start;
+        let Start { half_edges, vertices, fixed, bonds, rows, .. } = start;
         let mut is_bound = vec![false; vertices.len()];
         bonds.iter().flatten().for_each(|&v| is_bound[v as usize] = true);
         let mut live = Self {
@@ -88,8 +92,11 @@ impl<'a> LiveSurface<'a> {
             n_released: 0,
             fixed,
             bonds,
+            rows: Vec::new(),
             spacing: 1.0,
         };
+        rows.iter().for_each(|&v| live.fix(v));
+        live.rows = rows;
         live.renew_spacing();
         live
     }
@@ -138,6 +145,11 @@ impl<'a> LiveSurface<'a> {
         self.n_fixed -= usize::from(self.is_fixed(v));
         self.fixed[v as usize] = false;
         self.anchors.retain(|&anchor| anchor != v);
+    }
+
+    /// Lets the rows beside creases move.
+    pub(super) fn loosen_rows(&mut self) {
+        std::mem::take(&mut self.rows).into_iter().for_each(|v| self.loosen(v));
     }
 
     /// Lets a vertex go for good.

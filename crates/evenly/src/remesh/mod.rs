@@ -28,6 +28,7 @@ mod live;
 mod moves;
 mod polish;
 mod queue;
+mod rows;
 mod sample;
 mod settle;
 mod shape;

@@ -47,6 +47,9 @@ pub(super) fn settle<'a>(
         report.outcome = Outcome::Converged;
         return Ok(live);
     }
+    if !matches!(local, Local::Targets(_)) {
+        live.loosen_rows();
+    }
     let mut sweep = Sweep::new(live);
     find_places(&mut sweep, &local, params.seed, run, report)?;
     // Where the surface stands out, a vertex stays, and the others find their places around it.
@@ -144,6 +147,7 @@ fn push_and_pull(
             ending = sweep.run(&rule, &Plan { max_passes: max_passes.min(EVEN_PASSES), ..plan }, run, report);
         }
     }
+    sweep.ground_mut().loosen_rows();
     // 2. In narrow folds a few may not come to rest: without the rule of areas, with longer moves, and after a push to the side they do.
     let capacity_tolerance = if rule.min_distance.or(rule.coverage_radius).is_some() { None } else { rule.capacity_tolerance };
     let rule = PushPull { capacity_tolerance, relaxation: STRETCH * rule.relaxation, ..rule };

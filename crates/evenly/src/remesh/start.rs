@@ -5,6 +5,7 @@ use super::draft::Draft;
 use super::eliminate::{eliminate, subdivide};
 use super::given::{n_kept, on_edges, put_all};
 use super::live::{Start, Vertex};
+use super::rows::rows;
 use crate::error::Error;
 use crate::geometry::spacing::hexagonal_spacing;
 use crate::surface::{Features, Place, Surface, morton};
@@ -44,6 +45,9 @@ pub(super) fn start(wanted: Wanted) -> Result<Result<Start, usize>, Error> {
     Ok(Err(least))
 }
 
+/// Rows beside creases are no more than this part of the vertices.
+const MOST_IN_ROWS: f64 = 0.4;
+
 /// Where creases and borders leave too few vertices for the rest, they have so many times fewer in the next round, up to some; what is
 /// collapsed first is another edge in each.
 const SPARING: f64 = 1.5;
@@ -56,12 +60,18 @@ fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error>
     let spacing = spacing(surface, n_points);
     let mut draft = Draft::new(surface, features, sizes);
     // 1. Points along creases and borders.
-    if let Err(least) = pin_chains(&mut draft, spacings * spacing, n_points, &on_edges(surface, given)) {
-        return Ok(Err(least));
-    }
+    let gaps = match pin_chains(&mut draft, spacings * spacing, n_points, &on_edges(surface, given)) {
+        Ok(gaps) => gaps,
+        Err(least) => return Ok(Err(least)),
+    };
     features.tips.iter().for_each(|&v| draft.pin(v));
     // 2. Vertices to choose from.
     if given.is_empty() {
+        let is_uniform = sizes.iter().all(|&size| size == 1.0);
+        let rows = if is_uniform { rows(&draft, &gaps, spacing) } else { Vec::new() };
+        if (rows.len() as f64) < MOST_IN_ROWS * n_points as f64 {
+            put_all(&mut draft, &rows)?;
+        }
         subdivide(&mut draft, spacing, n_points, seed);
     } else {
         put_all(&mut draft, given)?;
@@ -71,7 +81,11 @@ fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error>
         draft.keeps_given = false;
     }
     // 3. As many as are wanted.
-    let is_reached = eliminate(&mut draft, n_points, seed);
+    let mut is_reached = eliminate(&mut draft, n_points, seed);
+    if !is_reached && draft.keeps_given {
+        draft.keeps_given = false;
+        is_reached = eliminate(&mut draft, n_points, seed);
+    }
     Ok(if is_reached { Ok(finished(&draft)) } else { Err(draft.n_live) })
 }
 
@@ -101,5 +115,7 @@ fn finished(draft: &Draft) -> Start {
     bonds.sort_unstable();
     bonds.dedup();
     let n_given = order.iter().filter(|&&v| draft.vertices[v as usize].is_given).count();
-    Start { half_edges, vertices, fixed, bonds, n_given }
+    let is_row = |v: u32| draft.keeps_given && draft.vertices[v as usize].is_given;
+    let rows = order.iter().zip(0..).filter(|&(&v, _)| is_row(v)).map(|(_, new)| new).collect();
+    Start { half_edges, vertices, fixed, bonds, n_given, rows }
 }
