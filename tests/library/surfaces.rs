@@ -11,7 +11,7 @@ use evenly::{
 };
 use proptest::prelude::*;
 
-use solids::{cone, cube, genus_3, l_shape, moebius, needle, patch, sheet, slice, sphere, torus, touching_spheres};
+use solids::{cone, cube, cylinder, genus_3, l_shape, moebius, needle, patch, sheet, slice, sphere, torus, touching_spheres};
 
 fn remeshed(surface: &Surface, n_points: usize, seed: u64) -> (Remeshed, Report) {
     remesh(surface, &RemeshParams { n_points, seed, ..RemeshParams::default() }, &mut RunContext::default()).unwrap()
@@ -563,5 +563,29 @@ fn as_few_vertices_as_corners_do() {
             assert_eq!(remeshed.mesh.vertices.len(), n_points);
             assert!(Surface::new(&remeshed.mesh).unwrap().euler_characteristic() == surface.euler_characteristic());
         }
+    }
+}
+
+/// Three triangles fill the half turn at each point of a straight crease, and only the cube's own right angles miss the bounds: 45 degrees are the best that a half of them has.
+#[test]
+fn meshes_settle_along_creases_and_at_right_angled_corners() {
+    for seed in 0..3 {
+        let params = RemeshParams { n_points: 2000, seed, ..RemeshParams::default() };
+        let made = |mesh: &TriangleMesh| {
+            let (remeshed, report) = remesh(&Surface::new(mesh).unwrap(), &params, &mut RunContext::default()).unwrap();
+            let quality = surface_quality(&Surface::new(&remeshed.mesh).unwrap());
+            (remeshed, report, quality)
+        };
+        let (remeshed, report, quality) = made(&cube(1));
+        assert!(matches!(report.outcome, Outcome::Forced | Outcome::IterationLimit) && quality.obtuse_triangles == 0, "{seed}");
+        // Two halves of each right angle; a pair of points with two and four triangles may be left on an edge.
+        assert!(quality.min_angle_deg > 44.5 && remeshed.forced.len() == 48, "{seed}: {}", remeshed.forced.len());
+        let breaches = certificate(&Surface::new(&remeshed.mesh).unwrap(), 0.7);
+        let n_others = breaches.iter().filter(|breach| !remeshed.forced.contains(&breach.triangle)).count();
+        assert!(n_others <= 8 && (n_others == 0) == (report.outcome == Outcome::Forced), "{seed}: {n_others}");
+        // Nothing is forced where there is no corner.
+        let (remeshed, report, quality) = made(&cylinder(48));
+        assert_eq!((report.outcome, quality.obtuse_triangles, remeshed.forced.len()), (Outcome::Converged, 0, 0), "{seed}");
+        assert!(quality.min_angle_deg > 45.5, "{seed}: {}", quality.min_angle_deg);
     }
 }

@@ -77,7 +77,7 @@ def test_meshes_follow_sizes_densities_and_methods():
         ("either spacing or n_triangles", {"spacing": 0.1, "n_triangles": 100}),
         ("spacing is -1", {"spacing": -1.0}),
         ("min_angle is 50", {"spacing": 0.1, "min_angle": 50.0}),
-        ("no_obtuse needs method push-pull", {"spacing": 0.1, "no_obtuse": True, "method": "lloyd"}),
+        ("beta is for method well-spaced or opt-beta", {"spacing": 0.1, "beta": 0.7}),
         ("length at", {"spacing": 0.1, "sizes": [(0.5, 0.5, 0)]}),
         ("does not hold the fixed point", {"spacing": 0.1, "fixed": [(3, 3)]}),
         (r"line 0 must have the shape", {"spacing": 0.1, "lines": [(1, 2, 3)]}),
@@ -105,7 +105,7 @@ def test_dots_follow_the_picture():
     for wrong in (ramp.astype(float), ramp.astype(int) * 200, ramp.astype(np.int16) - 300):
         with pytest.raises(ValueError, match="picture must have whole numbers"):
             evenly.stipple(wrong, 10)
-    with pytest.raises(ValueError, match="iterations is for optimisers"):
+    with pytest.raises(ValueError, match="iterations is for method"):
         evenly.stipple(ramp, 10, method="white", iterations=5)
     with pytest.raises(ValueError, match="n is 0"):
         evenly.stipple(ramp, 0)

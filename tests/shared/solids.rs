@@ -116,6 +116,17 @@ pub fn sheet() -> TriangleMesh {
     cells(|_| true, [8, 8, 1], [0.125, 0.125, 0.05])
 }
 
+/// A cylinder of height 2 over a disk, closed.
+pub fn cylinder(n: usize) -> TriangleMesh {
+    let rim = |z: f64| (0..n).map(move |k| [(TAU * k as f64 / n as f64).cos(), (TAU * k as f64 / n as f64).sin(), z]);
+    let mut vertices = vec![[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]];
+    vertices.extend(rim(0.0).chain(rim(2.0)));
+    let (low, high) = (|k: usize| 2 + k % n, |k: usize| 2 + n + k % n);
+    let sector =
+        |k| [[0, low(k + 1), low(k)], [1, high(k), high(k + 1)], [low(k), low(k + 1), high(k + 1)], [low(k), high(k + 1), high(k)]];
+    mesh(vertices, (0..n).flat_map(sector).collect())
+}
+
 /// A cone of height 2 over a disk.
 pub fn cone(n: usize) -> TriangleMesh {
     let mut vertices = vec![[0.0, 0.0, 2.0], [0.0, 0.0, 0.0]];

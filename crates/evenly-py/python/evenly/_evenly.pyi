@@ -26,6 +26,7 @@ __all__ = [
     "measure",
     "mesh",
     "mesh_figure",
+    "methods",
     "optimize",
     "polygon",
     "power_spectrum",

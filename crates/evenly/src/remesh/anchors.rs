@@ -93,7 +93,9 @@ mod tests {
         let (features, sizes) = (Features::borders(&surface), vec![1.0; surface.n_vertices()]);
         for (n, seed) in (40..80).zip(0..) {
             let start =
-                start(Wanted { surface: &surface, features: &features, sizes: &sizes, n_points: n, given: &[], seed }).unwrap().unwrap();
+                start(Wanted { surface: &surface, features: &features, sizes: &sizes, n_points: n, has_rows: false, given: &[], seed })
+                    .unwrap()
+                    .unwrap();
             let mut live = LiveSurface::new(&surface, &features, &sizes, start);
             live.legalize();
             let places = |live: &LiveSurface| (0..n as u32).map(|v| live.at(v)).collect::<Vec<_>>();

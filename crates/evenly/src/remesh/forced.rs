@@ -7,6 +7,8 @@ use crate::triangulation::{BORDER, next, prev};
 
 /// A triangle in such a corner may be worse than its best division by so much, in degrees.
 const SPARE_DEG: f64 = 3.0;
+/// And is not obtuse, to rounding.
+const RIGHT_DEG: f64 = 90.0 + 1e-6;
 
 /// Triangles that miss the bounds on angles.
 #[derive(Debug, Default)]
@@ -19,7 +21,22 @@ pub(super) struct Missed {
     pub n_others: usize,
 }
 
+/// Angles that every mesh is to keep, in degrees, but where the input forces others.
+const PLAIN_DEG: [f64; 2] = [30.0, 90.0];
+
 impl LiveSurface<'_> {
+    /// By how much triangles that the input does not force miss what every mesh is to keep, all together.
+    pub(super) fn misfit(&self) -> f64 {
+        let bounds = Bounds::new(PLAIN_DEG);
+        let mesh = self.half_edges();
+        let free = mesh.triangles().enumerate().filter(|(t, _)| self.forced.binary_search(t).is_err());
+        free.map(|(_, t)| {
+            let [least, most] = Shape::of_space(t.map(|v| self.at(v))).extreme_angles_deg();
+            if bounds.hold([least, most]) { 0.0 } else { (PLAIN_DEG[0] - least).max(0.0) + (most - PLAIN_DEG[1]).max(0.0) }
+        })
+        .sum()
+    }
+
     /// The triangles that miss the bounds on angles, and which of them the input's corners force to.
     pub(super) fn missed(&self, bounds: Bounds) -> Missed {
         let mesh = self.half_edges();
@@ -33,18 +50,13 @@ impl LiveSurface<'_> {
             }
             let forcing = (0..3).filter(|&k| self.is_bound(vertices[k])).find(|&k| {
                 let best = bounds.best_division(self.sector_deg(3 * t as u32 + k as u32));
-                best.is_some_and(|[smallest, largest]| least >= smallest - SPARE_DEG && most <= largest + SPARE_DEG)
+                // Nothing but the input's own obtuse angle makes one.
+                best.is_some_and(|[smallest, largest]| least >= smallest - SPARE_DEG && most <= largest.max(RIGHT_DEG))
             });
-            // Nor can anything be done where nothing can move.
-            let is_held = vertices.iter().all(|&v| self.is_bound(v));
             match forcing {
                 Some(k) => {
                     missed.forced.push(t);
                     corners.push(vertices[k]);
-                }
-                None if is_held => {
-                    missed.forced.push(t);
-                    corners.extend(vertices);
                 }
                 None => missed.n_others += 1,
             }

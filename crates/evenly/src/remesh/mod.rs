@@ -45,7 +45,7 @@ pub use self::sample::{SampleParams, SurfaceSampling, sample_surface};
 use self::settle::settle;
 use self::start::{Wanted, start};
 use crate::error::Error;
-use crate::methods::{LocalMethod, PushPullParams};
+use crate::methods::{Local, LocalMethod, PushPullParams};
 use crate::run::{Phase, Report, RunContext};
 use crate::surface::{Attribute, Features, Place, SIZE, Surface, TriangleMesh, weighted_area};
 use crate::sweep::Ground as _;
@@ -219,15 +219,18 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
     run.enter(Phase::Triangulate);
     let inside: Vec<_> = params.points.iter().map(|&p| surface.frame.inward(p)).collect();
     let given = given::places(surface, &inside);
-    let wanted = Wanted { surface, features: &long, sizes: &sizes, n_points: params.n_points, given: &given, seed: params.seed };
+    let has_rows = matches!(params.method.local(), Local::Targets(_));
+    let n_points = params.n_points;
+    let wanted = Wanted { surface, features: &long, sizes: &sizes, n_points, has_rows, given: &given, seed: params.seed };
+    let all;
     let (features, started) = match start(wanted)? {
         // Creases that are short for the spacing were left out: with all of them, fewer vertices may do.
         Err(least) if params.features_deg.is_some() => {
-            let all = Features::new(surface, params.features_deg, 0.0);
+            all = Features::new(surface, params.features_deg, 0.0);
             let started = start(Wanted { features: &all, ..wanted })?.map_err(|of_all| least.min(of_all));
-            (all, started)
+            (&all, started)
         }
-        started => (long, started),
+        started => (&long, started),
     };
     let start = started.map_err(|least| Error::InvalidParameter {
         name: "n_points",
@@ -241,7 +244,21 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
     }
 
     // 2. They move until all is as it should be.
-    let live = settle(LiveSurface::new(surface, &features, &sizes, start), params, run, &mut report)?;
+    let begun = report.clone();
+    let had_rows = !start.rows.is_empty();
+    let mut live = settle(LiveSurface::new(surface, features, &sizes, start), params, run, &mut report)?;
+
+    // 3. On narrow faces rows are in each other's way: then once more without.
+    if had_rows && !run.is_cancelled() && live.misfit() > 0.0 {
+        let wanted = Wanted { features, has_rows: false, ..wanted };
+        if let Ok(start) = start::start(wanted)? {
+            let mut again = begun;
+            let other = settle(LiveSurface::new(surface, features, &sizes, start), params, run, &mut again)?;
+            if other.misfit() < live.misfit() {
+                (live, report) = (other, again);
+            }
+        }
+    }
     Ok((finished(surface, &live), report))
 }
 

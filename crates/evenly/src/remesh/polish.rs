@@ -35,6 +35,10 @@ impl Bounds {
         Self { smallest, largest: 180.0 - 2.0 * smallest }
     }
 
+    pub fn new([smallest, largest]: [f64; 2]) -> Self {
+        Self { smallest, largest }
+    }
+
     /// The smallest and the largest angle, in degrees.
     pub fn degrees(self) -> [f64; 2] {
         [self.smallest, self.largest]

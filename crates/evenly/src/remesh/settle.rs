@@ -26,7 +26,7 @@ const HARD_KICK: f64 = 0.1;
 const PATIENCE: usize = 5;
 /// A stage is in vain that leaves more than this part of the fewest restless vertices so far; on a surface with creases or borders so many of them end a run.
 const BETTER: f64 = 0.9;
-const IN_VAIN: usize = 4;
+const IN_VAIN: usize = 6;
 /// So often vertices are put where the surface stands out.
 const ANCHORINGS: usize = 2;
 /// So often those are let go that keep others from their places.
@@ -153,6 +153,7 @@ fn push_and_pull(
     let rule = PushPull { capacity_tolerance, relaxation: STRETCH * rule.relaxation, ..rule };
     let mut n_stages = 0;
     let (mut fewest, mut n_in_vain) = (1.0, 0);
+    let bounds = targets.coverage_radius.zip(targets.min_distance).map(|(radius, distance)| Bounds::of_beta(radius / distance));
     while ending == Ending::PassLimit && report.iterations < max_passes {
         ending = sweep.run(&rule, &Plan { max_passes: max_passes.min(report.iterations + STAGE), ..plan }, run, report);
         if ending == Ending::PassLimit && report.iterations < max_passes {
@@ -163,12 +164,15 @@ fn push_and_pull(
                 sweep.ground_mut().release_restless();
             }
         }
-        // Creases, unlike a smooth surface, may keep some from rest for good.
+        // Creases, unlike a smooth surface, may keep some from rest for good; where these are but in corners that force it, nothing is left to do.
         let restless = report.stable_share.last().map_or(0.0, |share| 1.0 - share);
         let is_better = restless < BETTER * fewest;
         n_in_vain = if is_better { 0 } else { n_in_vain + 1 };
         fewest = if is_better { restless } else { fewest };
-        if ending == Ending::PassLimit && n_in_vain >= IN_VAIN && !sweep.ground_mut().bonds.is_empty() {
+        let live = sweep.ground_mut();
+        let has_creases = ending == Ending::PassLimit && !live.bonds.is_empty();
+        let is_at_end = n_in_vain >= IN_VAIN || bounds.is_some_and(|bounds| live.missed(bounds).n_others == 0);
+        if has_creases && is_at_end {
             break;
         }
         n_stages += 1;

@@ -23,6 +23,8 @@ pub(super) struct Wanted<'a> {
     /// Relative to the mean, at each vertex of the surface.
     pub sizes: &'a [f64],
     pub n_points: usize,
+    /// Whether vertices beside creases begin in rows.
+    pub has_rows: bool,
     /// Places to choose from, if there are any, and how far from the surface they were given.
     pub given: &'a [(Place, f64)],
     pub seed: u64,
@@ -46,7 +48,7 @@ pub(super) fn start(wanted: Wanted) -> Result<Result<Start, usize>, Error> {
 }
 
 /// Rows beside creases are no more than this part of the vertices.
-const MOST_IN_ROWS: f64 = 0.4;
+const MOST_IN_ROWS: f64 = 0.25;
 
 /// Where creases and borders leave too few vertices for the rest, they have so many times fewer in the next round, up to some; what is
 /// collapsed first is another edge in each.
@@ -56,7 +58,7 @@ const ROUNDS: i32 = 24;
 
 /// As [`start`], with points on creases and borders so many spacings apart; how many vertices are needed where these are not enough.
 fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error> {
-    let Wanted { surface, features, sizes, n_points, given, seed } = wanted;
+    let Wanted { surface, features, sizes, n_points, has_rows, given, seed } = wanted;
     let spacing = spacing(surface, n_points);
     let mut draft = Draft::new(surface, features, sizes);
     // 1. Points along creases and borders.
@@ -68,9 +70,13 @@ fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error>
     // 2. Vertices to choose from.
     if given.is_empty() {
         let is_uniform = sizes.iter().all(|&size| size == 1.0);
-        let rows = if is_uniform { rows(&draft, &gaps, spacing) } else { Vec::new() };
+        let rows = if has_rows && is_uniform { rows(&draft, &gaps, spacing) } else { Vec::new() };
         if (rows.len() as f64) < MOST_IN_ROWS * n_points as f64 {
             put_all(&mut draft, &rows)?;
+        }
+        // Points on edges leave fans across large triangles, at whose corners every search would take long.
+        if !gaps.is_empty() {
+            draft.legalize_within(&mut (0..draft.mesh.origin.len() as u32).collect());
         }
         subdivide(&mut draft, spacing, n_points, seed);
     } else {
