@@ -194,7 +194,8 @@ impl<P: Clone> Parameter<P> {
     pub const fn choice(
         name: &'static str,
         choices: &'static [Choice],
-        (get, set): (fn(&P) -> usize, fn(&mut P, usize)),
+        get: fn(&P) -> usize,
+        set: fn(&mut P, usize),
         doc: &'static str,
     ) -> Self {
         Self::new(name, "", ParameterKind::Choice(choices), Field::Choice(get, set), doc)

@@ -121,7 +121,8 @@ impl Optimizing for ProcrustesParams {
             Parameter::choice(
                 "mode",
                 &MODES,
-                (|p: &Self| p.mode as usize, |p: &mut Self, place| p.mode = [Mode::Paper, Mode::Fast][place]),
+                |p: &Self| p.mode as usize,
+                |p: &mut Self, place| p.mode = [Mode::Paper, Mode::Fast][place],
                 "How points are moved towards their targets",
             ),
             Parameter::number(

@@ -322,7 +322,8 @@ impl Optimizing for PushPullParams {
             Parameter::choice(
                 "schedule",
                 &SCHEDULES,
-                (|p: &Self| p.schedule as usize, |p: &mut Self, place| p.schedule = [Schedule::InTurn, Schedule::Summed][place]),
+                |p: &Self| p.schedule as usize,
+                |p: &mut Self, place| p.schedule = [Schedule::InTurn, Schedule::Summed][place],
                 "When points move",
             )
             .rare(),
