@@ -3,11 +3,12 @@
 use crate::spaces;
 
 use evenly::{
-    DartParams, PointSet, PoissonDiskParams, Rectangle, Space, Torus, dart, eliminate, measure, poisson_disk, poisson_disk_of, white,
+    CancelToken, DartParams, PointSet, PoissonDiskParams, Rectangle, RunContext, Space, Torus, dart, eliminate, measure, poisson_disk,
+    poisson_disk_of, progressive, white,
 };
 use proptest::prelude::*;
 
-use spaces::{nth, rectangle, spaces, torus};
+use spaces::{n_distinct, nth, rectangle, spaces, torus};
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
@@ -135,4 +136,16 @@ fn darts_fall_until_it_is_full() {
     let points = dart(&space, &DartParams { n_points: Some(1000), ..DartParams::default() }).unwrap();
     let first = PointSet::new(space, points.positions()[..100].to_vec()).unwrap();
     assert!(measure(&points).unwrap().min_distance > 0.6 && measure(&first).unwrap().min_distance > 0.6);
+}
+
+#[test]
+fn a_progressive_order_can_be_interrupted_and_loses_no_point() {
+    let points = white(nth(0), 20_000, 4).unwrap();
+    let cancel = CancelToken::default();
+    let run = RunContext::default().with_cancel(cancel.clone());
+    let whole = progressive(&points, &run).unwrap();
+    assert_eq!(whole, eliminate(&points, 20_000).unwrap());
+    cancel.cancel();
+    let cut = progressive(&points, &run).unwrap();
+    assert_eq!(n_distinct(&cut), 20_000);
 }

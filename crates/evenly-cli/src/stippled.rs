@@ -2,7 +2,7 @@
 
 use anyhow::Context as _;
 use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser};
-use evenly::{CancelToken, Density, Method, PointSet, Rectangle, RunContext, Space};
+use evenly::{Density, Method, PointSet, Rectangle, RunContext, Space};
 use evenly_io::Photograph;
 
 use crate::method::{ByDensity, MethodArgs, OptimizersByDensity, parser};
@@ -52,13 +52,7 @@ struct DrawingArgs {
 ///
 /// # Errors
 /// What the command line says of the flags; a picture without any tone.
-pub fn stipple(
-    photograph: &Photograph,
-    n_points: usize,
-    words: &[String],
-    run: &mut RunContext,
-    cancel: &CancelToken,
-) -> anyhow::Result<Vec<Layer>> {
+pub fn stipple(photograph: &Photograph, n_points: usize, words: &[String], run: &mut RunContext) -> anyhow::Result<Vec<Layer>> {
     let matches = Flags::command().try_get_matches_from(words).map_err(|error| crate::plain(&error))?;
     let Flags { method, method_args, seed, tone, drawing } = Flags::from_arg_matches(&matches).map_err(|error| crate::plain(&error))?;
     let tone = tone.tone()?;
@@ -70,7 +64,7 @@ pub fn stipple(
     // Of each layer another seed, so that no two put their dots in the same places.
     for ((ink, n), seed) in inks.iter().zip(shares(&inks, n_points)).zip(seed..).filter(|((_, n), _)| *n > 0) {
         let tones = ink.tones(photograph, &tone, drawing.sizes)?;
-        let made = dots(&params, space.clone(), ink, &tones, n, seed, (run, &|| cancel.is_cancelled()))?;
+        let made = dots(&params, space.clone(), ink, &tones, n, seed, run)?;
         let points = made.points.with_density(&Density::uniform());
         layers.push(Layer { name: ink.name(), colour: ink.colour(), points, areas: made.areas, widest: made.widest_px });
     }

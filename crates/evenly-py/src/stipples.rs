@@ -36,9 +36,9 @@ pub fn stipple(
             Photograph::of_colours("the picture", shape, colours).ok_or_else(|| value_error("a picture has height x width x 4 values"))?
         }
     };
-    run(py, Terms { threads, callback }, move |context, cancel| {
+    run(py, Terms { threads, callback }, move |context, _| {
         let size = photograph.size();
-        let layers = stippled(&photograph, n, &words, context, cancel)?;
+        let layers = stippled(&photograph, n, &words, context)?;
         answer(move |py| {
             let layers = layers.into_iter().map(|layer| {
                 let dots = array(py, layer.points.into_positions())?;

@@ -59,7 +59,8 @@ pub use methods::{
 pub use parameter::{About, Choice, Group, ParameterKind, Setting, Settings};
 pub use points::{
     CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,
-    poisson_disk_around, poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, warp, warp_isotropic, white, white_by_density,
+    poisson_disk_around, poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, progressive, warp, warp_isotropic, white,
+    white_by_density,
 };
 pub use polygon::{FillRule, Polygon, Shape};
 pub use remesh::{RemeshParams, Remeshed, SampleParams, SurfacePoint, SurfaceSampling, remesh, sample_surface};

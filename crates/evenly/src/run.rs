@@ -101,7 +101,8 @@ impl<'a> RunContext<'a> {
         self.report(Progress { phase, iteration: 0, energy: None, stable_share: None, fraction: 0.0 });
     }
 
-    pub(crate) fn is_cancelled(&self) -> bool {
+    /// Whether somebody has asked the run to stop.
+    pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }
 

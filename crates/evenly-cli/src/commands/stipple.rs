@@ -186,7 +186,7 @@ impl<'a> Drawn<'a> {
         let params = DotsParams { method: args.method, settings: args.method_args.of(args.method), sizes: args.sizes, order: args.order };
         let bar = session::bar(args.run.quiet, 1000, "{msg} [{bar:30}] {eta} left");
         let mut run = session::context(&bar, cancel, args.run.quiet);
-        let made = dots(&params, space, ink, tones, n_points, seed, (&mut run, &|| cancel.is_cancelled()))?;
+        let made = dots(&params, space, ink, tones, n_points, seed, &mut run)?;
         bar.finish_and_clear();
         let Dots { points, areas, widest_px } = made;
         let has_report = args.report.is_some();

@@ -1,6 +1,6 @@
 //! The dots of one pen: spread by its tones, in the order in which they are drawn, as large as they are to be.
 
-use evenly::{Method, PointSet, RunContext, Settings, Space, eliminate, tour};
+use evenly::{Method, PointSet, RunContext, Settings, Space, progressive, tour};
 
 use super::ink::{Ink, Tones};
 use super::pen::{dot_areas, widest_dot};
@@ -37,15 +37,15 @@ pub fn dots(
     tones: &Tones,
     n_points: usize,
     seed: u64,
-    (run, is_cancelled): (&mut RunContext, &dyn Fn() -> bool),
+    run: &mut RunContext,
 ) -> anyhow::Result<Dots> {
     let optimizer = optimizer(params.method, &params.settings, seed)?;
     let points = spread(space, &tones.density, n_points, params.method, optimizer.as_deref(), seed, run)?;
     let points = match params.order {
         // An order that takes long is left out where nobody wants to wait; a pen cannot do without its tour.
-        DrawOrder::Progressive if is_cancelled() => ordered(&points, &tour(&points, run))?,
+        DrawOrder::Progressive if run.is_cancelled() => ordered(&points, &tour(&points, run))?,
         DrawOrder::Tour => ordered(&points, &tour(&points, run))?,
-        DrawOrder::Progressive => eliminate(&points, points.n_points())?,
+        DrawOrder::Progressive => progressive(&points, run)?,
         DrawOrder::Input => points,
     };
     let areas = match params.sizes {

@@ -20,11 +20,14 @@ use super::white::white_by_density;
 use crate::density::{Density, Field};
 use crate::error::Error;
 use crate::parameter::Entry;
+use crate::run::RunContext;
 use crate::space::{Domain, Space};
 
 /// Candidates a point that the paper finds enough.
 pub const CANDIDATES_A_POINT: usize = 5;
 
+/// After so many points it is asked whether the run is cancelled.
+const ASKING: usize = 1 << 12;
 /// The paper's alpha, beta and gamma.
 const ALPHA: i32 = 8;
 const BETA: f64 = 0.65;
@@ -48,6 +51,18 @@ const SPREAD: u32 = 0x9e37_79b1;
 /// # Ok::<(), evenly::Error>(())
 /// ```
 pub fn eliminate(candidates: &PointSet, n_points: usize) -> Result<PointSet, Error> {
+    eliminated(candidates, n_points, &RunContext::default())
+}
+
+/// All points in progressive order: any first part of them is spread evenly. Where the run is cancelled, those whose turn has not come stand first, as they are.
+///
+/// # Errors
+/// [`Error::InvalidParameter`] for no points.
+pub fn progressive(points: &PointSet, run: &RunContext) -> Result<PointSet, Error> {
+    eliminated(points, points.n_points(), run)
+}
+
+fn eliminated(candidates: &PointSet, n_points: usize, run: &RunContext) -> Result<PointSet, Error> {
     let n_candidates = candidates.n_points();
     let n_fixed = candidates.n_fixed();
     if n_points == 0 || n_points > n_candidates || n_points < n_fixed {
@@ -57,11 +72,11 @@ pub fn eliminate(candidates: &PointSet, n_points: usize) -> Result<PointSet, Err
     let (domain, places) = candidates.normalized();
     let mut left = hilbert_order(&places, domain.size);
     let field = candidates.field(&domain);
-    let thin = |left: &mut Vec<u32>, n_points: usize| thin(&domain, field.as_ref(), (&places, n_fixed), left, n_points);
+    let thin = |left: &mut Vec<u32>, n_points: usize| thin(&domain, field.as_ref(), (&places, n_fixed), left, n_points, run);
     let _ = thin(&mut left, n_points);
     // From the last place to the first: half of what is left goes, and stands behind what stays.
     let mut order = Vec::with_capacity(n_points);
-    while left.len() > n_fixed.max(1) {
+    while left.len() > n_fixed.max(1) && !run.is_cancelled() {
         let n_half = (left.len() / 2).max(n_fixed);
         order.extend(thin(&mut left, n_half));
     }
@@ -72,7 +87,14 @@ pub fn eliminate(candidates: &PointSet, n_points: usize) -> Result<PointSet, Err
 }
 
 /// Takes points out, none of the first `n_fixed`, until `n_points` are left; returns them in the order in which they went.
-fn thin(domain: &Domain, field: Option<&Field>, (places, n_fixed): (&[DVec2], usize), left: &mut Vec<u32>, n_points: usize) -> Vec<u32> {
+fn thin(
+    domain: &Domain,
+    field: Option<&Field>,
+    (places, n_fixed): (&[DVec2], usize),
+    left: &mut Vec<u32>,
+    n_points: usize,
+    run: &RunContext,
+) -> Vec<u32> {
     // Twice the paper's r_max and r_min. A row of points has another spacing, and room enough to need no r_min.
     let (spacing, of_row) = (domain.hex_spacing(n_points), domain.size.max_element() / n_points as f64);
     let farthest = spacing.max(of_row);
@@ -83,7 +105,10 @@ fn thin(domain: &Domain, field: Option<&Field>, (places, n_fixed): (&[DVec2], us
 
     let mut is_left = vec![true; left.len()];
     let mut weights = vec![0.0; left.len()];
-    for (k, sum) in (0..).zip(&mut weights) {
+    for (k, sum) in (0u32..).zip(&mut weights) {
+        if (k as usize).is_multiple_of(ASKING) && run.is_cancelled() {
+            return Vec::new();
+        }
         crowd.each_near(k, |_, distance| *sum += weight(distance));
     }
     // Weights only fall, so what is on top with a weight that is not its own any more goes back down.
@@ -100,6 +125,9 @@ fn thin(domain: &Domain, field: Option<&Field>, (places, n_fixed): (&[DVec2], us
         if now != top {
             heap.push(now);
             continue;
+        }
+        if gone.len().is_multiple_of(ASKING) && run.is_cancelled() {
+            break;
         }
         is_left[k as usize] = false;
         gone.push(left[k as usize]);

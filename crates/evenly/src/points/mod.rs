@@ -24,7 +24,7 @@ pub(crate) use around::around;
 pub(crate) use dart::Dart;
 pub use dart::{DartParams, dart};
 pub(crate) use eliminate::Eliminate;
-pub use eliminate::{CANDIDATES_A_POINT, eliminate};
+pub use eliminate::{CANDIDATES_A_POINT, eliminate, progressive};
 pub(crate) use hexagonal::Hexagonal;
 pub use hexagonal::hexagonal;
 pub(crate) use jittered::Jittered;

@@ -83,10 +83,9 @@ pub(super) fn settle<'a>(
         report.note_limit();
         return Ok(live);
     };
+    let is_cut_short = report.outcome == Outcome::IterationLimit;
     if report.outcome == Outcome::Converged && !live.meets(&targets) {
         report.outcome = Outcome::IterationLimit;
-    } else {
-        report.note_limit();
     }
     if let Some(beta) = params.method.beta()
         && report.outcome == Outcome::IterationLimit
@@ -95,6 +94,9 @@ pub(super) fn settle<'a>(
         let bounds = Bounds::of_beta(beta);
         live.polish(bounds, params.seed);
         conclude(&mut live, bounds, report);
+    }
+    if is_cut_short {
+        report.note_limit();
     }
     Ok(live)
 }
