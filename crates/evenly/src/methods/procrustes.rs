@@ -104,7 +104,7 @@ const ROUNDING: f64 = 1e-12;
 const IDLE: usize = 16;
 
 const MODES: [Choice; 2] = [
-    Choice { name: "paper", doc: "plain steps, the energy never rises (but where a rectangle is triangulated anew)" },
+    Choice { name: "paper", doc: "plain steps, the energy never rises, but where a rectangle is triangulated again" },
     Choice { name: "fast", doc: "momentum" },
 ];
 

@@ -67,7 +67,7 @@ impl LiveSurface<'_> {
         missed
     }
 
-    /// The angle in degrees between the two creases, or borders, on either side of the corner that half-edge `h` leaves, all triangles between them together.
+    /// The angle in degrees between the two creases, or boundaries, on either side of the corner that half-edge `h` leaves, all triangles between them together.
     fn sector_deg(&self, h: u32) -> f64 {
         let mesh = &self.mesh;
         let at = mesh.origin(h);

@@ -65,7 +65,7 @@ pub(super) struct LiveSurface<'a> {
     rows: Vec<u32>,
     /// Triangles that the input's corners force to miss the targets, once the run has ended.
     pub(super) forced: Vec<usize>,
-    /// Which vertices are on creases and borders.
+    /// Which vertices are on creases and boundaries.
     is_bound: Vec<bool>,
     /// How often a vertex' moves were blocked.
     blocked: Vec<AtomicU32>,
@@ -128,7 +128,7 @@ impl<'a> LiveSurface<'a> {
         self.fixed[v as usize]
     }
 
-    /// Whether a vertex is on a crease or a border.
+    /// Whether a vertex is on a crease or a boundary.
     #[inline]
     pub(super) fn is_bound(&self, v: u32) -> bool {
         self.is_bound[v as usize]

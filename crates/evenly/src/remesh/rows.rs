@@ -1,4 +1,4 @@
-//! Rows: the first vertices beside creases and borders, one across from each gap between points there.
+//! Rows: the first vertices beside creases and boundaries, one across from each gap between points there.
 //!
 //! Where a crease runs straight, three triangles of 60 degrees fill the half turn at each of its points; four have 45 and two 90, outside of what the targets ask for. So beside a crease
 //! vertices come one to a gap, and a start that has them so keeps them; one by chance has others at every third point, which only pairs of them can mend.

@@ -24,7 +24,7 @@ const GENTLE_STAGES: usize = 3;
 const HARD_KICK: f64 = 0.1;
 /// And after so many, anchors among them are let go.
 const PATIENCE: usize = 5;
-/// A stage is in vain that leaves more than this part of the fewest restless vertices so far; on a surface with creases or borders so many of them end a run.
+/// A stage is in vain that leaves more than this part of the fewest restless vertices so far; on a surface with creases or boundaries so many of them end a run.
 const BETTER: f64 = 0.9;
 const IN_VAIN: usize = 6;
 /// So often vertices are put where the surface stands out.
