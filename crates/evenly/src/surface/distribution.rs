@@ -84,13 +84,15 @@ pub fn measure_on_surface(surface: &Surface, points: &[[f64; 3]]) -> Result<Surf
 ///
 /// # Example
 /// ```
-/// use evenly::{RunContext, Surface, SurfaceSampling, TriangleMesh, sample_surface, surface_spectrum};
+/// use evenly::{RemeshParams, RunContext, SampleParams, Surface, SurfaceSampling, TriangleMesh, sample_surface, surface_spectrum};
 ///
 /// // An octahedron.
 /// let vertices = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
 /// let triangles = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]];
 /// let surface = Surface::new(&TriangleMesh { vertices, triangles, attributes: Vec::new() })?;
-/// let (points, _) = sample_surface(&surface, SurfaceSampling::PushPull(500), 7, &mut RunContext::default())?;
+/// let sampling = SurfaceSampling::Vertices(500, RemeshParams::default().method);
+/// let params = SampleParams { sampling, sizes: Vec::new(), seed: 7 };
+/// let (points, _) = sample_surface(&surface, &params, &mut RunContext::default())?;
 /// let positions: Vec<[f64; 3]> = points.iter().map(|point| point.position).collect();
 /// let spectrum = surface_spectrum(&surface, &positions, false)?;
 /// assert!(spectrum.effective_nyquist > 0.7);
