@@ -92,6 +92,8 @@ fn points_are_sampled() {
     ] {
         shell.ok(&format!("sample torus.off -n 300 --method {flags} -o p.csv --force"));
     }
+    let error = shell.refused("remesh torus.off -n 300 --tolerance 0.1 -o q.off");
+    assert!(error.contains("--max-deviation") && !error.contains("procrustes"), "{error}");
     for flags in ["cvt", "white --iterations 9", "lloyd --beta 0.7", "poisson-disk --density nothing"] {
         shell.refused(&format!("sample torus.off -n 300 --method {flags} -o q.csv"));
     }

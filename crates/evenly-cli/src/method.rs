@@ -96,11 +96,16 @@ impl<O: Offered> MethodArgs<O> {
         method.own(&self.settings)
     }
 
+    /// Whether a parameter is given.
+    pub fn is_given(&self, name: &str) -> bool {
+        self.settings.get(name).is_some()
+    }
+
     /// Refuses parameters that none of the methods has.
     pub fn refuse_others(&self, methods: &[Method]) -> anyhow::Result<()> {
         let is_taken = |name: &str| methods.iter().any(|method| method.takes(name));
         match self.settings.names().find(|name| !is_taken(name)) {
-            Some(name) => bail!("--{} is for --method {}", flag(name), names(&takers::<Any>(name))),
+            Some(name) => bail!("--{} is for --method {}", flag(name), names(&takers::<O>(name))),
             None => Ok(()),
         }
     }

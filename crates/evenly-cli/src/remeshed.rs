@@ -131,6 +131,9 @@ pub fn remeshed(
     }
     let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
     memory::require_vertices(n_points)?;
+    if wishes.method_args.is_given("tolerance") && !wishes.method.takes("tolerance") {
+        bail!("--tolerance ends methods that have one; how far the input may be from the mesh is --max-deviation");
+    }
     if wishes.max_deviation.is_some() && !wishes.method.is_optimizer() {
         bail!("--max-deviation needs vertices that move; those of {} stay", wishes.method);
     }

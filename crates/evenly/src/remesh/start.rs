@@ -74,10 +74,6 @@ fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error>
         if (rows.len() as f64) < MOST_IN_ROWS * n_points as f64 {
             put_all(&mut draft, &rows)?;
         }
-        // Points on edges leave fans across large triangles, at whose corners every search would take long.
-        if !gaps.is_empty() {
-            draft.legalize_within(&mut (0..draft.mesh.origin.len() as u32).collect());
-        }
         subdivide(&mut draft, spacing, n_points, seed);
     } else {
         put_all(&mut draft, given)?;
