@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::cells::Territory;
 use super::ground::SurfaceBuffer;
 use super::live::LiveSurface;
 use crate::surface::Facets;
@@ -57,12 +58,12 @@ impl LiveSurface<'_> {
             return false;
         }
         let SurfaceBuffer { moving, n_flips, .. } = buffer;
-        self.walk(v, moving);
+        self.walk_alone(v, moving);
         if self.step(v, way, moving) {
             return true;
         }
         // What is in the way may only be that the edges around are not Delaunay.
-        self.restore(v, moving, n_flips);
+        let _ = self.restore(v, Territory::EVERYTHING, moving, n_flips);
         self.step(v, way, moving)
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::shape::{Guard, is_delaunay};
-use crate::surface::{Features, Place, Surface};
+use crate::surface::{Features, Place, Surface, morton};
 use crate::triangulation::{BORDER, HalfEdges, next, prev};
 
 /// A vertex of a draft.
@@ -303,23 +303,28 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// What is left, numbered anew in a given order of the vertices.
-    pub fn compact(&self, order: &[u32]) -> HalfEdges {
+    /// Forgets what is gone, and puts vertices that are near to each other in space near to each other in memory, triangles by their first vertex.
+    pub fn tidy(&mut self) {
+        let mut order: Vec<u32> = (0..self.vertices.len() as u32).filter(|&v| self.is_live(v)).collect();
+        order.sort_by_cached_key(|&v| (morton(self.at(v)), v));
         let mut number = vec![BORDER; self.vertices.len()];
-        for (new, &v) in (0..).zip(order) {
-            number[v as usize] = new;
-        }
+        (0..).zip(&order).for_each(|(new, &v)| number[v as usize] = new);
         let mut live: Vec<usize> = (0..self.mesh.n_triangles()).filter(|&t| self.mesh.origin[3 * t] != BORDER).collect();
         live.sort_by_cached_key(|&t| self.mesh.triangle(t).map(|v| number[v as usize]).into_iter().min());
         let mut slots = vec![BORDER; self.mesh.n_triangles()];
-        for (new, &t) in (0..).zip(&live) {
-            slots[t] = new;
-        }
+        (0..).zip(&live).for_each(|(new, &t)| slots[t] = new);
         let all = || live.iter().flat_map(|&t| 3 * t..3 * t + 3);
         let twin = |h: usize| {
             let twin = self.mesh.twin[h];
             if twin == BORDER { BORDER } else { 3 * slots[twin as usize / 3] + twin % 3 }
         };
-        HalfEdges { origin: all().map(|h| number[self.mesh.origin[h] as usize]).collect(), twin: all().map(twin).collect() }
+        let mesh = HalfEdges { origin: all().map(|h| number[self.mesh.origin[h] as usize]).collect(), twin: all().map(twin).collect() };
+        self.is_crease = all().map(|h| self.is_crease[h]).collect();
+        self.hosts = live.iter().map(|&t| self.hosts[t]).collect();
+        self.vertices = order.iter().map(|&v| self.vertices[v as usize]).collect();
+        self.outgoing = mesh.outgoing(order.len());
+        self.marks = vec![0; order.len()];
+        self.round = 0;
+        self.mesh = mesh;
     }
 }

@@ -8,7 +8,7 @@ use crate::triangulation::{BORDER, next, prev};
 
 /// Edges are split until none is longer than this, in the wanted spacings, and there are so many times the wanted vertices.
 const LONGEST: f64 = 1.0;
-const CHOICE: f64 = 4.0;
+const CHOICE: f64 = 3.0;
 /// But never into more than so many times the wanted vertices, or edges shorter than this.
 const MOST_TIMES: usize = 60;
 const SHORTEST: f64 = 0.3;

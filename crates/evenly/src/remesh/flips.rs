@@ -1,18 +1,20 @@
 //! Flips: edges become the other diagonals where the angles across exceed pi, by true lengths.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
+use super::cells::Territory;
 use super::live::LiveSurface;
 use super::shape::{Guard, is_delaunay};
-use crate::triangulation::{BORDER, Spoke, next, prev};
+use crate::triangulation::{BORDER, Outside, Spoke, next, prev};
 
 impl LiveSurface<'_> {
     /// Goes around `v`, and flips its spokes until none is to be.
-    pub(super) fn restore(&self, v: u32, ring: &mut Vec<Spoke<DVec3>>, n_flips: &mut usize) {
+    pub(super) fn restore(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke<DVec3>>, n_flips: &mut usize) -> Result<(), Outside> {
         loop {
-            self.walk(v, ring);
+            self.walk(v, territory, ring)?;
             measure(ring);
-            let Some(h) = self.find_illegal(ring) else { return };
+            let Some(h) = self.find_illegal(ring) else { return Ok(()) };
             self.flip(h);
             *n_flips += 1;
         }
@@ -77,16 +79,21 @@ impl LiveSurface<'_> {
     /// Flips until all edges are Delaunay that can be. Returns how often.
     pub fn legalize(&mut self) -> usize {
         let mut n_flips = 0;
-        let mut suspects: Vec<u32> = (0..self.mesh.n_half_edges() as u32).collect();
-        while let Some(h) = suspects.pop() {
-            if self.should_flip(h) {
-                let t = self.mesh.twin(h);
-                self.flip(h);
-                suspects.extend([h, t, next(h), next(t), prev(h), prev(t)]);
-                n_flips += 1;
+        loop {
+            let all = 0..self.mesh.n_half_edges() as u32;
+            let mut suspects: Vec<u32> = all.into_par_iter().filter(|&h| self.should_flip(h)).collect();
+            if suspects.is_empty() {
+                return n_flips;
+            }
+            while let Some(h) = suspects.pop() {
+                if self.should_flip(h) {
+                    let t = self.mesh.twin(h);
+                    self.flip(h);
+                    suspects.extend([h, t, next(h), next(t), prev(h), prev(t)]);
+                    n_flips += 1;
+                }
             }
         }
-        n_flips
     }
 }
 

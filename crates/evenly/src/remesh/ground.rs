@@ -2,11 +2,15 @@
 
 use glam::{DVec2, DVec3};
 
+use super::cells::Territory;
 use super::live::{LiveSurface, NUMBERS};
 use crate::error::Error;
 use crate::star::{Senses, Star};
 use crate::sweep::{Buffer, Cells, Ground, Reading};
-use crate::triangulation::{HalfEdges, Outside, SharedMesh, Spoke, Territory};
+use crate::triangulation::{HalfEdges, Outside, SharedMesh, Spoke};
+
+/// Cells are made again where visits to one point in so many were put off.
+const DEFERRED: usize = 100;
 
 /// All that is needed to come back.
 #[derive(Clone)]
@@ -46,6 +50,9 @@ impl Ground for LiveSurface<'_> {
     type Way = DVec3;
     type Buffer = SurfaceBuffer;
     type State = State;
+    type Territory = Territory;
+
+    const EVERYTHING: Territory = Territory::EVERYTHING;
 
     fn n_points(&self) -> usize {
         self.mesh.n_vertices()
@@ -87,16 +94,15 @@ impl Ground for LiveSurface<'_> {
         (0..self.n_points() as u32).for_each(|v| self.soil(v));
     }
 
-    fn read<const PLAIN: bool>(&self, v: u32, _: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
+    fn read<const PLAIN: bool>(&self, v: u32, territory: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
         let SurfaceBuffer { star, senses, spokes, n_flips, .. } = buffer;
-        self.restore(v, spokes, n_flips);
+        self.restore(v, territory, spokes, n_flips)?;
         self.fill(v, senses, star, spokes);
         Ok(())
     }
 
-    fn look_around(&self, v: u32, _: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
-        self.lay_out(v, buffer);
-        Ok(())
+    fn look_around(&self, v: u32, territory: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
+        self.lay_out(v, territory, buffer)
     }
 
     fn unfolded(&self, v: u32, by: DVec2) -> DVec3 {
@@ -108,9 +114,8 @@ impl Ground for LiveSurface<'_> {
         if self.is_fixed(point) { DVec3::ZERO } else { by }
     }
 
-    fn relocate<const PLAIN: bool>(&self, point: u32, by: DVec3, _: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
-        self.go(point, by, buffer);
-        Ok(())
+    fn relocate<const PLAIN: bool>(&self, point: u32, by: DVec3, territory: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
+        self.go(point, by, territory, buffer)
     }
 
     fn legalize(&mut self) -> usize {
@@ -125,8 +130,12 @@ impl Ground for LiveSurface<'_> {
         self.half_edges().check_manifold(self.n_points())
     }
 
-    fn cells(&mut self) -> Cells {
-        Cells::in_turn(self.n_points())
+    fn keeps_cells(&self, n_deferred: usize) -> bool {
+        n_deferred * DEFERRED < self.n_points()
+    }
+
+    fn cells(&mut self) -> Cells<Territory> {
+        self.divide()
     }
 
     fn sort_by_rows(&self, points: &mut [u32], height: f64) {

@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::DVec3;
 
+use super::cells::Territory;
 use crate::surface::{Features, Surface};
-use crate::triangulation::{BORDER, HalfEdges, SharedMesh, Spoke, next};
+use crate::triangulation::{BORDER, HalfEdges, Outside, SharedMesh, Spoke, next};
 
 /// The numbers of a vertex' place: position, the surface's normal there, the wanted spacing there relative to the mean, the triangle that holds it, and its weights there.
 pub(super) const NUMBERS: usize = 11;
@@ -69,6 +70,8 @@ pub(super) struct LiveSurface<'a> {
     is_bound: Vec<bool>,
     /// How often a vertex' moves were blocked.
     blocked: Vec<AtomicU32>,
+    /// For each colour, the cell in whose territory each vertex lies.
+    pub(super) owners: Vec<Vec<u32>>,
     /// The edge of equilateral triangles, as many, that cover as much.
     pub(super) spacing: f64,
 }
@@ -88,6 +91,7 @@ impl<'a> LiveSurface<'a> {
             mesh: SharedMesh::new(&half_edges, vertices.iter().map(Vertex::numbers)),
             blocked: vertices.iter().map(|_| AtomicU32::new(0)).collect(),
             n_fixed: fixed.iter().filter(|&&is_fixed| is_fixed).count(),
+            owners: Vec::new(),
             anchors: Vec::new(),
             n_released: 0,
             fixed,
@@ -183,21 +187,30 @@ impl<'a> LiveSurface<'a> {
     }
 
     /// Goes once around `v`, counter-clockwise, for the ways to its neighbours. On a border the last spoke has no half-edge.
-    pub(super) fn walk(&self, v: u32, ring: &mut Vec<Spoke<DVec3>>) {
+    pub(super) fn walk(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke<DVec3>>) -> Result<(), Outside> {
         ring.clear();
         let at = self.at(v);
         let first = self.mesh.outgoing(v);
         let (mut vertex, mut half_edge) = (self.mesh.origin(next(first)), first);
         loop {
+            if !self.holds(territory, vertex) {
+                return Err(Outside);
+            }
             ring.push(Spoke { vertex, half_edge, way: self.at(vertex) - at, ..Spoke::default() });
             if half_edge == BORDER {
-                return;
+                return Ok(());
             }
             (vertex, half_edge) = self.mesh.turn(half_edge);
             if half_edge == first {
-                return;
+                return Ok(());
             }
         }
+    }
+
+    /// As [`walk`](Self::walk), where one thread works alone.
+    pub(super) fn walk_alone(&self, v: u32, ring: &mut Vec<Spoke<DVec3>>) {
+        // Nothing lies outside.
+        let _ = self.walk(v, Territory::EVERYTHING, ring);
     }
 
     pub(super) fn soil(&self, v: u32) {

@@ -12,9 +12,11 @@
 //! - Creases and borders are kept: the points along them come first, and stay.
 //! - Where the wanted spacing varies it counts a triangle at a time, so that the bounds on angles hold as they do where it is uniform.
 //!
-//! Cost: O(n) passes of about a microsecond a visit, some 60 visits a point, on one thread. It does not promise that the targets are reached, but the report says so.
+//! Cost: O(n) passes of about a microsecond a visit, some 60 visits per point. The start, a fifth of the time, is on one thread. It does not promise that the targets are reached, but the
+//! report says so.
 
 mod anchors;
+mod cells;
 mod chains;
 mod coarse;
 mod collapse;

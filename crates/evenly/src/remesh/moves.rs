@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 
+use super::cells::Territory;
 use super::ground::SurfaceBuffer;
 use super::live::LiveSurface;
 use super::shape::Guard;
 use crate::points::Random;
 use crate::sweep::Ground;
-use crate::triangulation::{BORDER, Spoke};
+use crate::triangulation::{BORDER, Outside, Spoke};
 
 /// A move turns no triangle by more than this: the cosine.
 const LEAST_TURN: f64 = 0.3;
@@ -22,36 +23,39 @@ impl LiveSurface<'_> {
         let mut buffer = SurfaceBuffer::default();
         let mut pushed: Vec<u32> = (0..self.n_points() as u32).filter(|&v| self.is_dirty(v) && (is_all || self.n_blocked(v) > 0)).collect();
         for v in pushed.clone().into_iter().filter(|&v| self.is_fixed(v)) {
-            self.walk(v, &mut buffer.moving);
+            self.walk_alone(v, &mut buffer.moving);
             pushed.extend(buffer.moving.iter().map(|spoke| spoke.vertex));
         }
         pushed.sort_unstable();
         pushed.dedup();
         for v in pushed {
             let way = DVec3::new(random.signed(), random.signed(), random.signed());
-            self.go(v, by * self.local_spacing(v) * way, &mut buffer);
+            // Nothing lies outside.
+            let _ = self.go(v, by * self.local_spacing(v) * way, Territory::EVERYTHING, &mut buffer);
         }
     }
 
     /// Moves a vertex by a vector of space, or as far as it gets, and soils what stands around.
-    pub(super) fn go(&self, v: u32, by: DVec3, buffer: &mut SurfaceBuffer) {
+    pub(super) fn go(&self, v: u32, by: DVec3, territory: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
         if self.is_fixed(v) {
-            return;
+            return Ok(());
         }
         let ring = &mut buffer.moving;
-        self.walk(v, ring);
+        self.walk(v, territory, ring)?;
         if self.step(v, by, ring) {
-            return;
+            return Ok(());
         }
         // What is in the way may only be that the edges around are not Delaunay.
         let mut n_flips = 0;
-        self.restore(v, ring, &mut n_flips);
+        let restored = self.restore(v, territory, ring, &mut n_flips);
         buffer.n_flips += n_flips;
+        restored?;
         let ring = &buffer.moving;
         let is_done = PARTS.iter().skip(usize::from(n_flips == 0)).any(|&part| self.step(v, part * by, ring));
         if !is_done {
             self.count_blocked(v);
         }
+        Ok(())
     }
 
     /// Makes a move if its triangles allow it.

@@ -73,7 +73,7 @@ impl LiveSurface<'_> {
             for t in bad {
                 for h in 3 * t..3 * t + 3 {
                     self.flip_if_better(h, bounds);
-                    self.walk(self.mesh.origin(h), &mut buffer.moving);
+                    self.walk_alone(self.mesh.origin(h), &mut buffer.moving);
                     vertices.push(self.mesh.origin(h));
                     vertices.extend(buffer.moving.iter().map(|spoke| spoke.vertex));
                 }
@@ -109,7 +109,7 @@ impl LiveSurface<'_> {
         for _ in 0..HALVINGS {
             for _ in 0..DIRECTIONS {
                 let ring = &mut buffer.moving;
-                self.walk(v, ring);
+                self.walk_alone(v, ring);
                 let from: Vertex = self.vertex(v);
                 let before = self.badness_around(bounds, from.at, ring);
                 if before == 0.0 {

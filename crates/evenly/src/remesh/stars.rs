@@ -5,11 +5,12 @@
 
 use glam::{DVec2, DVec3};
 
+use super::cells::Territory;
 use super::ground::SurfaceBuffer;
 use super::live::LiveSurface;
 use crate::star::{Senses, Star, Wedge};
 use crate::sweep::Ground;
-use crate::triangulation::{BORDER, Spoke, slope};
+use crate::triangulation::{BORDER, Outside, Spoke, slope};
 
 impl LiveSurface<'_> {
     /// Turns the spokes around `v` into a star.
@@ -86,7 +87,7 @@ impl LiveSurface<'_> {
     }
 
     /// Lays out the star of `v` and those of its neighbours in the plane along the surface.
-    pub(super) fn lay_out(&self, v: u32, buffer: &mut SurfaceBuffer) {
+    pub(super) fn lay_out(&self, v: u32, territory: Territory, buffer: &mut SurfaceBuffer) -> Result<(), Outside> {
         let [x, y] = self.tangents(v);
         let (at, scale) = (self.at(v), 1.0 / self.spacing());
         let flat = |other: u32| {
@@ -94,11 +95,11 @@ impl LiveSurface<'_> {
             DVec2::new(way.dot(x), way.dot(y))
         };
         let mut ring = std::mem::take(&mut buffer.moving);
-        self.walk(v, &mut ring);
+        self.walk(v, territory, &mut ring)?;
         let neighbours: Vec<u32> = ring.iter().map(|spoke| spoke.vertex).collect();
         let mut beyond = Vec::new();
         for &neighbour in &neighbours {
-            self.walk(neighbour, &mut ring);
+            self.walk(neighbour, territory, &mut ring)?;
             for spoke in &ring {
                 if spoke.vertex != v && !neighbours.contains(&spoke.vertex) && !beyond.contains(&spoke.vertex) {
                     beyond.push(spoke.vertex);
@@ -118,6 +119,7 @@ impl LiveSurface<'_> {
         };
         star.rail = self.is_fixed(v).then_some(DVec2::ZERO);
         buffer.moving = ring;
+        Ok(())
     }
 }
 

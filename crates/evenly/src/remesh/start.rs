@@ -8,7 +8,7 @@ use super::live::{Start, Vertex};
 use super::rows::rows;
 use crate::error::Error;
 use crate::geometry::spacing::hexagonal_spacing;
-use crate::surface::{Features, Place, Surface, morton};
+use crate::surface::{Features, Place, Surface};
 
 /// The spacing of so many vertices on a surface: the edge of equilateral triangles, two for each.
 pub(super) fn spacing(surface: &Surface, n_points: usize) -> f64 {
@@ -83,41 +83,36 @@ fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error>
         draft.keeps_given = false;
     }
     // 3. As many as are wanted.
+    draft.tidy();
     let mut is_reached = eliminate(&mut draft, n_points, seed);
     if !is_reached && draft.keeps_given {
         draft.keeps_given = false;
         is_reached = eliminate(&mut draft, n_points, seed);
     }
-    Ok(if is_reached { Ok(finished(&draft)) } else { Err(draft.n_live) })
+    Ok(if is_reached { Ok(finished(draft)) } else { Err(draft.n_live) })
 }
 
-/// What is left, vertices that are near to each other in space near to each other in memory.
-fn finished(draft: &Draft) -> Start {
-    let mut order: Vec<u32> = (0..draft.vertices.len() as u32).filter(|&v| draft.is_live(v)).collect();
-    order.sort_by_cached_key(|&v| (morton(draft.at(v)), v));
-    let half_edges = draft.compact(&order);
-    let vertices: Vec<Vertex> = { order.iter() }
-        .map(|&v| {
-            let vertex = &draft.vertices[v as usize];
-            let place = vertex.place;
-            Vertex { at: place.at, normal: vertex.normal, size: vertex.size, face: place.face, weights: place.weights }
-        })
-        .collect();
-    let fixed = order.iter().map(|&v| draft.vertices[v as usize].is_pinned).collect();
-    let mut number = vec![0; draft.vertices.len()];
-    order.iter().zip(0..).for_each(|(&v, new)| number[v as usize] = new);
-    let is_bond = |h: &usize| draft.mesh.origin[*h] != u32::MAX && draft.is_crease[*h];
-    let mut bonds: Vec<[u32; 2]> = (0..draft.mesh.origin.len())
-        .filter(is_bond)
-        .map(|h| {
-            let [a, b] = [draft.mesh.origin[h], draft.mesh.target(h as u32)].map(|v| number[v as usize]);
-            [a.min(b), a.max(b)]
-        })
-        .collect();
+/// What is left.
+fn finished(mut draft: Draft) -> Start {
+    draft.tidy();
+    let vertex = |of: &super::draft::Vertex| {
+        let Place { at, face, weights } = of.place;
+        Vertex { at, normal: of.normal, size: of.size, face, weights }
+    };
+    let ends = |h: usize| {
+        let [a, b] = [draft.mesh.origin[h], draft.mesh.target(h as u32)];
+        [a.min(b), a.max(b)]
+    };
+    let mut bonds: Vec<[u32; 2]> = (0..draft.mesh.origin.len()).filter(|&h| draft.is_crease[h]).map(ends).collect();
     bonds.sort_unstable();
     bonds.dedup();
-    let n_given = order.iter().filter(|&&v| draft.vertices[v as usize].is_given).count();
-    let is_row = |v: u32| draft.keeps_given && draft.vertices[v as usize].is_given;
-    let rows = order.iter().zip(0..).filter(|&(&v, _)| is_row(v)).map(|(_, new)| new).collect();
-    Start { half_edges, vertices, fixed, bonds, n_given, rows }
+    let given: Vec<u32> = (0..).zip(&draft.vertices).filter(|(_, vertex)| vertex.is_given).map(|(v, _)| v).collect();
+    Start {
+        vertices: draft.vertices.iter().map(vertex).collect(),
+        fixed: draft.vertices.iter().map(|vertex| vertex.is_pinned).collect(),
+        bonds,
+        n_given: given.len(),
+        rows: if draft.keeps_given { given } else { Vec::new() },
+        half_edges: draft.mesh,
+    }
 }

@@ -1,6 +1,6 @@
 //! Cells in colours: how threads share a pass, so that they never meet and the result does not depend on them.
 //!
-//! The domain is divided into cells of at least twelve spacings a side, and each into four by four blocks. A vertex belongs to a block
+//! In the plane the domain is divided into cells of at least twelve spacings a side, and each into four by four blocks. A vertex belongs to a block
 //! until the division is made anew, wherever it goes. A thread that works on a cell may touch the vertices of the cell and
 //! of the two blocks around it: these territories are disjoint for cells of one colour, which are every second along both axes. A
 //! visit that would reach further (the star, its second ring, and whatever flips and moves touch) is put off to a tail
@@ -16,23 +16,58 @@ const SIDE: f64 = 12.0;
 const BLOCKS: u32 = 4;
 /// Blocks that a territory holds beyond its cell, on each side.
 const REACH: u32 = 2;
-/// Points in a cell, where one thread works alone: as many as its fast memory holds.
-const RUN: usize = 256;
 /// The most cells along an axis: a mark has 15 bits for a block's number.
 const MAX_CELLS: u32 = 1 << 12;
 
-pub(crate) struct Cells {
-    /// Along each axis those that threads share: powers of two, so that a block's number wraps by masking.
-    n_cells: [u32; 2],
-    /// The points of each cell, in order of their index.
+/// Points in cells, the cells in colours.
+pub(crate) struct Cells<T> {
+    /// The points of each cell.
     members: Vec<u32>,
     starts: Vec<u32>,
+    /// Cells that threads may work on at once.
+    colours: Vec<Vec<u32>>,
+    /// What a thread that works on a cell may touch.
+    territories: Vec<T>,
 }
 
-impl Cells {
-    /// Divides the mesh' domain, and puts every point into the cell and block where it is now. A cover is one cell, since the copies of a
-    /// point move together.
-    pub fn new(mesh: &mut LiveMesh) -> Self {
+impl<T: Copy> Cells<T> {
+    /// Cells of given points: those of cell `k` are from `starts[k]` to `starts[k + 1]`.
+    pub fn new(members: Vec<u32>, starts: Vec<u32>, colours: Vec<Vec<u32>>, territories: Vec<T>) -> Self {
+        debug_assert_eq!(colours.iter().map(Vec::len).sum::<usize>(), territories.len());
+        Self { members, starts, colours, territories }
+    }
+
+    pub fn colours(&self) -> &[Vec<u32>] {
+        &self.colours
+    }
+
+    pub fn members(&self, cell: u32) -> &[u32] {
+        &self.members[self.starts[cell as usize] as usize..self.starts[cell as usize + 1] as usize]
+    }
+
+    pub fn territory(&self, cell: u32) -> T {
+        self.territories[cell as usize]
+    }
+}
+
+impl Cells<Territory> {
+    /// Divides the domain of a mesh in the plane, and puts every point into the cell and block where it is now, in order of their index. A cover is one cell, since the
+    /// copies of a point move together.
+    pub fn of_plane(mesh: &mut LiveMesh) -> Self {
+        let grid = Grid::new(mesh);
+        let [members, starts] = grid.assign(mesh);
+        let territories = (0..grid.n_cells[0] * grid.n_cells[1]).map(|cell| grid.territory(cell)).collect();
+        Self::new(members, starts, grid.colours(), territories)
+    }
+}
+
+/// How many cells there are along each axis: powers of two, so that a block's number wraps by masking.
+struct Grid {
+    n_cells: [u32; 2],
+}
+
+impl Grid {
+    fn new(mesh: &LiveMesh) -> Self {
         let size = if mesh.is_cover() { DVec2::ZERO } else { mesh.domain().size };
         let fitting = (size / (SIDE * mesh.typical_spacing())).to_array();
         let mut n_cells = fitting.map(|n| if n < 2.0 { 1 } else { 1 << (libm::log2(n) as u32) }).map(|n: u32| n.min(MAX_CELLS));
@@ -40,63 +75,47 @@ impl Cells {
         while n_cells[0] as usize * n_cells[1] as usize > mesh.n_points().max(1) {
             n_cells[usize::from(n_cells[1] > n_cells[0])] /= 2;
         }
-        let mut cells = Self { n_cells, members: Vec::new(), starts: vec![0; (n_cells[0] * n_cells[1]) as usize + 1] };
-        cells.assign(mesh);
-        cells
+        Self { n_cells }
     }
 
-    /// For one thread: a cell after the other, each of points that follow each other in memory.
-    pub fn in_turn(n_points: usize) -> Self {
-        let n = n_points as u32;
-        let starts = (0..n).step_by(RUN).chain([n]).collect();
-        Self { n_cells: [1, 1], members: (0..n).collect(), starts }
-    }
-
-    fn assign(&mut self, mesh: &mut LiveMesh) {
+    /// The points of all cells, and where each cell's begin.
+    fn assign(&self, mesh: &mut LiveMesh) -> [Vec<u32>; 2] {
         let n_blocks = DVec2::new(f64::from(BLOCKS * self.n_cells[0]), f64::from(BLOCKS * self.n_cells[1]));
         let scale = n_blocks / mesh.domain().size;
         let n_cells = (self.n_cells[0] * self.n_cells[1]) as usize;
         let n_points = mesh.n_points() as u32;
+        let mut starts = vec![0; n_cells + 1];
         let cells: Vec<u32> = (0..n_points)
             .map(|v| {
                 let [x, y] = (mesh.position(v) * scale).min(n_blocks - 1.0).as_uvec2().to_array();
                 mesh.set_block(v, y << 16 | x);
                 let cell = x / BLOCKS + y / BLOCKS * self.n_cells[0];
-                self.starts[cell as usize + 1] += 1;
+                starts[cell as usize + 1] += 1;
                 cell
             })
             .collect();
         for cell in 0..n_cells {
-            self.starts[cell + 1] += self.starts[cell];
+            starts[cell + 1] += starts[cell];
         }
-        let mut next = self.starts.clone();
-        self.members.resize(cells.len(), 0);
+        let mut next = starts.clone();
+        let mut members = vec![0; cells.len()];
         for (v, cell) in (0..).zip(cells) {
             let slot = &mut next[cell as usize];
-            self.members[*slot as usize] = v;
+            members[*slot as usize] = v;
             *slot += 1;
         }
+        [members, starts]
     }
 
-    /// The cells of each colour.
-    pub fn colours(&self) -> Vec<Vec<u32>> {
+    fn colours(&self) -> Vec<Vec<u32>> {
         let [width, height] = self.n_cells;
-        if self.n_cells == [1, 1] {
-            return (0..self.starts.len() as u32 - 1).map(|cell| vec![cell]).collect();
-        }
         let parities = |n: u32| 0..n.min(2);
         let cells =
             |x: u32, y: u32| (y..height).step_by(2).flat_map(move |row| (x..width).step_by(2).map(move |column| row * width + column));
         parities(height).flat_map(|y| parities(width).map(move |x| cells(x, y).collect())).collect()
     }
 
-    /// The points of a cell.
-    pub fn members(&self, cell: u32) -> &[u32] {
-        &self.members[self.starts[cell as usize] as usize..self.starts[cell as usize + 1] as usize]
-    }
-
-    /// What a thread that works on a cell may touch.
-    pub fn territory(&self, cell: u32) -> Territory {
+    fn territory(&self, cell: u32) -> Territory {
         let at = [cell % self.n_cells[0], cell / self.n_cells[0]];
         let field = |axis: usize| {
             let n_blocks = BLOCKS * self.n_cells[axis];
@@ -115,13 +134,13 @@ mod tests {
     use crate::points::hilbert_order;
     use crate::{Space, Torus, white};
 
-    fn divided(size: [f64; 2], n: usize) -> (LiveMesh, Cells) {
+    fn divided(size: [f64; 2], n: usize) -> (LiveMesh, Cells<Territory>) {
         let space: Space = Torus::new([0.0, 0.0], size).unwrap().into();
         let (domain, positions) = white(space, n, 1).unwrap().normalized();
         let order = hilbert_order(&positions, domain.size);
         let sorted = order.iter().map(|&index| positions[index as usize]).collect();
         let mut mesh = LiveMesh::new(&domain, None, sorted, order, domain.hex_spacing(n)).unwrap();
-        let cells = Cells::new(&mut mesh);
+        let cells = Cells::of_plane(&mut mesh);
         (mesh, cells)
     }
 
@@ -132,7 +151,7 @@ mod tests {
             let mut n_seen = 0;
             for colour in cells.colours() {
                 let mut owner = vec![None; n];
-                for &cell in &colour {
+                for &cell in colour {
                     let territory = cells.territory(cell);
                     for v in (0..n as u32).filter(|&v| mesh.is_free(v, territory)) {
                         assert_eq!(owner[v as usize].replace(cell), None);
@@ -148,8 +167,9 @@ mod tests {
     #[test]
     fn cells_are_twelve_spacings_wide_at_least() {
         let (mesh, cells) = divided([20.0, 1.0], 50_000);
-        let side = mesh.domain().size / DVec2::new(f64::from(cells.n_cells[0]), f64::from(cells.n_cells[1])) / mesh.spacing();
+        let [width, height] = Grid::new(&mesh).n_cells;
+        let side = mesh.domain().size / DVec2::new(f64::from(width), f64::from(height)) / mesh.spacing();
         assert!(side.cmpge(DVec2::splat(SIDE)).all() && side.cmplt(DVec2::splat(2.0 * SIDE)).all(), "{side}");
-        assert_eq!(cells.colours().iter().map(|colour| colour.len()).sum::<usize>() as u32, cells.n_cells[0] * cells.n_cells[1]);
+        assert_eq!(cells.colours().iter().map(|colour| colour.len()).sum::<usize>() as u32, width * height);
     }
 }

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::points::Random;
 use crate::run::{Phase, Progress, Report, RunContext};
 use crate::star::Rule;
-use crate::triangulation::{Distances, LiveMesh, Territory};
+use crate::triangulation::{Distances, LiveMesh};
 
 /// When the moves are made that a pass asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -83,10 +83,12 @@ pub(crate) enum Ending {
 /// Points on their way.
 pub(crate) struct Sweep<G: Ground = LiveMesh> {
     mesh: G,
-    cells: Cells,
+    cells: Cells<G::Territory>,
     /// What each pass wanted to move: squared, in spacings, on average of the points.
     unrest: Vec<f64>,
     best: Best<G::State>,
+    /// How many visits the last pass put off.
+    n_deferred: usize,
     /// How far the sweep has come, as it was last shown.
     fraction: f64,
 }
@@ -123,7 +125,7 @@ impl<G: Ground> Sweep<G> {
     pub fn new(mut mesh: G) -> Self {
         let cells = mesh.cells();
         let best = Best::start(&mesh, 0);
-        Self { mesh, cells, unrest: Vec::new(), best, fraction: 0.0 }
+        Self { mesh, cells, unrest: Vec::new(), best, n_deferred: 0, fraction: 0.0 }
     }
 
     /// Sweeps until nothing moves, and adds to the report what it did.
@@ -137,7 +139,9 @@ impl<G: Ground> Sweep<G> {
             let pass = self.unrest.len();
             if pass.is_power_of_two() || pass.is_multiple_of(RENEWAL) {
                 debug_assert_eq!(self.mesh.check(), Ok(()));
-                self.cells = self.mesh.cells();
+                if !self.mesh.keeps_cells(self.n_deferred) {
+                    self.cells = self.mesh.cells();
+                }
             }
             let work = match plan.schedule {
                 Schedule::InTurn => self.pass(rule, plan.order, Random::derived(plan.seed, report.iterations), run),
@@ -191,14 +195,15 @@ impl<G: Ground> Sweep<G> {
             if run.is_cancelled() {
                 return None;
             }
-            let cells = colour.into_par_iter();
+            let cells = colour.par_iter();
             let done: Vec<Work> = cells
-                .map_init(|| G::Buffer::sensing(rule.senses()), |buffer, cell| self.visit_cell(rule, cell, order, seed, buffer))
+                .map_init(|| G::Buffer::sensing(rule.senses()), |buffer, &cell| self.visit_cell(rule, cell, order, seed, buffer))
                 .collect();
             done.iter().for_each(|work| total.add(work));
         }
         let deferred = std::mem::take(&mut total.deferred);
-        total.add(&self.visit_all(rule, &deferred, Territory::EVERYTHING, &mut G::Buffer::sensing(rule.senses())));
+        self.n_deferred = deferred.len();
+        total.add(&self.visit_all(rule, &deferred, G::EVERYTHING, &mut G::Buffer::sensing(rule.senses())));
         Some(total)
     }
 
@@ -211,7 +216,7 @@ impl<G: Ground> Sweep<G> {
         self.visit_all(rule, &dirty, self.cells.territory(cell), buffer)
     }
 
-    fn visit_all(&self, rule: &impl Rule, points: &[u32], territory: Territory, buffer: &mut G::Buffer) -> Work {
+    fn visit_all(&self, rule: &impl Rule, points: &[u32], territory: G::Territory, buffer: &mut G::Buffer) -> Work {
         let mut work = Work::default();
         let n_flips = buffer.n_flips();
         let is_plain = G::MAY_BE_PLAIN && self.mesh.is_plain();

@@ -60,6 +60,10 @@ pub(crate) trait Ground: Sync + Sized {
     type Buffer: Buffer<Self::Way>;
     /// All that is needed to come back to where points have been.
     type State: Clone + Sync;
+    /// The vertices that a thread may touch.
+    type Territory: Copy + Sync;
+    /// All of them.
+    const EVERYTHING: Self::Territory;
 
     fn n_points(&self) -> usize;
     /// The wanted spacing, where it varies its mean.
@@ -89,9 +93,9 @@ pub(crate) trait Ground: Sync + Sized {
     }
 
     /// Makes the spokes of `v` Delaunay, and reads its star.
-    fn read<const PLAIN: bool>(&self, v: u32, territory: Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
+    fn read<const PLAIN: bool>(&self, v: u32, territory: Self::Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
     /// Lays out the star of `v`, which has just been read, and the stars of its neighbours.
-    fn look_around(&self, v: u32, territory: Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
+    fn look_around(&self, v: u32, territory: Self::Territory, buffer: &mut Self::Buffer) -> Result<(), Outside>;
     /// A vector of the plane in which `look_around` has laid out the star of `v`.
     fn unfolded(&self, v: u32, by: DVec2) -> Self::Way;
     /// The part of a move that a point can make.
@@ -101,7 +105,7 @@ pub(crate) trait Ground: Sync + Sized {
         &self,
         point: u32,
         by: Self::Way,
-        territory: Territory,
+        territory: Self::Territory,
         buffer: &mut Self::Buffer,
     ) -> Result<(), Outside>;
 
@@ -111,8 +115,12 @@ pub(crate) trait Ground: Sync + Sized {
     fn mend(&mut self) -> Result<bool, Error>;
     /// Proves what the mesh claims to be, but for the Delaunay property.
     fn check(&self) -> Result<(), String>;
+    /// Whether points may stay in the cells where they are, after a pass that put so many visits off.
+    fn keeps_cells(&self, _n_deferred: usize) -> bool {
+        false
+    }
     /// The points as threads share them.
-    fn cells(&mut self) -> Cells;
+    fn cells(&mut self) -> Cells<Self::Territory>;
     /// Sorts points by rows so many spacings high, and along them.
     fn sort_by_rows(&self, points: &mut [u32], height: f64);
 
@@ -139,6 +147,9 @@ impl Ground for LiveMesh {
     type Way = DVec2;
     type Buffer = StarBuffer;
     type State = Vec<DVec2>;
+    type Territory = Territory;
+
+    const EVERYTHING: Territory = Territory::EVERYTHING;
 
     fn n_points(&self) -> usize {
         self.n_points()
@@ -222,8 +233,8 @@ impl Ground for LiveMesh {
         self.check()
     }
 
-    fn cells(&mut self) -> Cells {
-        Cells::new(self)
+    fn cells(&mut self) -> Cells<Territory> {
+        Cells::of_plane(self)
     }
 
     fn sort_by_rows(&self, points: &mut [u32], height: f64) {

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use super::ground::{Buffer, Ground, Way};
 use super::visit::{Work, ask};
 use crate::star::Rule;
-use crate::triangulation::Territory;
 
 /// Points that are asked in one go.
 const CHUNK: usize = 1 << 12;
@@ -27,7 +26,7 @@ pub(super) fn summed_pass<G: Ground>(mesh: &mut G, rule: &impl Rule) -> Work {
                 let (mut work, mut moves) = (Work::default(), Vec::new());
                 for &v in chunk {
                     // With everything free, nothing lies outside.
-                    let unrest = ask::<_, _, false>(shared, rule, v, Territory::EVERYTHING, buffer).unwrap_or_default();
+                    let unrest = ask::<_, _, false>(shared, rule, v, G::EVERYTHING, buffer).unwrap_or_default();
                     if unrest.is_none() {
                         shared.clean(v);
                     }
@@ -47,7 +46,7 @@ pub(super) fn summed_pass<G: Ground>(mesh: &mut G, rule: &impl Rule) -> Work {
     let mut buffer = G::Buffer::default();
     for (point, by) in (0..).zip(sums).filter(|&(_, by)| by != still) {
         // Nor here: as far as it gets.
-        let _ = mesh.relocate::<false>(point, by.clamp_length_max(mesh.local_spacing(point)), Territory::EVERYTHING, &mut buffer);
+        let _ = mesh.relocate::<false>(point, by.clamp_length_max(mesh.local_spacing(point)), G::EVERYTHING, &mut buffer);
     }
     total.n_flips += buffer.n_flips();
     total

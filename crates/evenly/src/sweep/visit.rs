@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::ground::{Buffer, Ground, Reading, Way};
 use crate::star::{Rule, Star};
-use crate::triangulation::{MIRROR, Outside, Spoke, Territory};
+use crate::triangulation::{MIRROR, Outside, Spoke};
 
 /// Moves below this, in local spacings, are not worth making.
 const STILL: f64 = 1e-9;
@@ -76,7 +76,7 @@ pub(super) fn visit<G: Ground, R: Rule, const PLAIN: bool>(
     mesh: &G,
     rule: &R,
     v: u32,
-    territory: Territory,
+    territory: G::Territory,
     buffer: &mut G::Buffer,
 ) -> Result<Unrest, Outside> {
     let unrest = ask::<G, R, PLAIN>(mesh, rule, v, territory, buffer)?;
@@ -97,7 +97,7 @@ pub(super) fn ask<G: Ground, R: Rule, const PLAIN: bool>(
     mesh: &G,
     rule: &R,
     v: u32,
-    territory: Territory,
+    territory: G::Territory,
     buffer: &mut G::Buffer,
 ) -> Result<Unrest, Outside> {
     mesh.read::<PLAIN>(v, territory, buffer)?;
