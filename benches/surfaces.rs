@@ -27,7 +27,7 @@ pub fn of_surfaces(is_quick: bool) {
 fn params(surface: &Surface, n_points: usize, is_by_curvature: bool, seed: u64) -> RemeshParams {
     let sizing = SurfaceSizing::Curvature { error: None };
     let sizes = if is_by_curvature { surface_sizes(surface, &sizing, Some(n_points)).unwrap() } else { Vec::new() };
-    RemeshParams { n_points, sizes, seed, ..RemeshParams::default() }
+    RemeshParams { n_vertices: n_points, sizes, seed, ..RemeshParams::default() }
 }
 
 fn quality(name: &str, mesh: &TriangleMesh, n: usize, is_by_curvature: bool) {

@@ -22,7 +22,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, mesh, n_points, sizing) in models {
         let surface = Surface::new(&mesh)?;
         let sizes = sizing.map(|sizing| surface_sizes(&surface, &sizing, Some(n_points))).transpose()?.unwrap_or_default();
-        let (made, report) = remesh(&surface, &RemeshParams { n_points, sizes, ..RemeshParams::default() }, &mut RunContext::default())?;
+        let (made, report) =
+            remesh(&surface, &RemeshParams { n_vertices: n_points, sizes, ..RemeshParams::default() }, &mut RunContext::default())?;
         println!("{name}: {:?} after {} passes", report.outcome, report.iterations);
         let after = format!("{n_points} vertices");
         let svg = compared_svg(&[("before", &mesh), (&after, &made.mesh)]);

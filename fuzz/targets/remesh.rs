@@ -13,7 +13,7 @@ fuzz_target!(|data: &[u8]| {
     let triangles = corners[..corners.len().min(120)].as_chunks::<3>().0.iter().map(|t| t.map(|v| usize::from(v) % n_vertices)).collect();
     let mesh = TriangleMesh { vertices: shapes::places(vertices), triangles, attributes: Vec::new() };
     let Ok(surface) = Surface::repaired(&mesh).or_else(|_| Surface::new(&mesh)) else { return };
-    let params = RemeshParams { n_points: usize::from(n_points) + 4, ..RemeshParams::default() };
+    let params = RemeshParams { n_vertices: usize::from(n_points) + 4, ..RemeshParams::default() };
     if let Ok((remeshed, _)) = remesh(&surface, &params, &mut RunContext::default()) {
         Surface::new(&remeshed.mesh).expect("what is written can be read");
     }

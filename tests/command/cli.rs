@@ -238,6 +238,11 @@ fn bad_input_gets_one_line_and_no_file() {
         ("optimize outside.txt --space rect -o o.txt", "outside.txt: point 2 is (1.9, 0.3), outside the domain 1 x 1 at (0, 0)"),
         ("analyze two.txt", "two.txt: 2 distinct points make no triangulation"),
         ("analyze missing.txt", "missing.txt: No such file"),
+        ("mesh two.txt --spacing 1 -o o.msh", "it is called --edge-length now"),
+        ("remesh two.txt --n-points 10 -o o.obj", "it is called --n-vertices now"),
+        ("generat -n 10 -o o.txt", "did you mean generate?"),
+        ("generate -n 10 --min-distanc .8 -o o.txt", "did you mean --min-distance?"),
+        ("generate -n 10 --method pushpull -o o.txt", "did you mean push-pull?"),
         ("generate -n 0 -o o.txt", "'0'"),
         ("generate -n 1e12 -o o.txt", "'1e12'"),
         ("generate -n 2.5 -o o.txt", "'2.5'"),
@@ -490,18 +495,18 @@ fn meshes_are_made_by_other_methods_too() {
     shell.write("area.txt", "0 0\n2 0\n2 1\n0 1\n");
     for method in ["opt-beta", "lloyd", "distmesh", "well-spaced", "capacity", "push-pull"] {
         let record =
-            json(&shell.ok(&format!("mesh area.txt --spacing 0.1 --method {method} --iterations 20 -q --json --force -o area.obj")));
+            json(&shell.ok(&format!("mesh area.txt --edge-length 0.1 --method {method} --iterations 20 -q --json --force -o area.obj")));
         assert!(record["quality"]["min_angle_deg"].as_f64().unwrap() > 25.0);
     }
     for flags in
         ["--no-obtuse", "--method lloyd --no-obtuse", "--beta 0.72 --method well-spaced", "--min-distance 0.85 --coverage-radius 0.68"]
     {
-        shell.ok(&format!("mesh area.txt --spacing 0.1 --force -o area.obj {flags}"));
+        shell.ok(&format!("mesh area.txt --edge-length 0.1 --force -o area.obj {flags}"));
     }
     for flags in
         ["--beta 0.7", "--method lloyd --iterations 0", "--method cvt", "--method lloyd --beta 0.7", "--method well-spaced --beta 9"]
     {
-        shell.refused(&format!("mesh area.txt --spacing 0.1 --force -o area.obj {flags}"));
+        shell.refused(&format!("mesh area.txt --edge-length 0.1 --force -o area.obj {flags}"));
     }
 }
 

@@ -69,7 +69,7 @@ fn sizes_and_features_are_heard() {
     assert!(quality("torus.off -n 900 --density linear:x,3")["max_edge"].as_f64() > Some(0.15));
     assert_eq!(quality("torus.off -n 900 --density lfs")["n_vertices"], 900);
     assert!(quality("torus.off --density curvature:0.01")["n_vertices"].as_u64() > Some(100));
-    assert!(quality("torus.off --spacing 0.15")["n_vertices"].as_u64() > Some(500));
+    assert!(quality("torus.off --edge-length 0.15")["n_vertices"].as_u64() > Some(500));
     let (kept, off) = (quality("cube.off -n 400"), quality("cube.off -n 400 --features off"));
     assert!((kept["area"].as_f64().unwrap() - 6.0).abs() < 1e-9);
     assert!(off["area"].as_f64() < Some(6.0 - 1e-3));
@@ -140,7 +140,7 @@ fn bad_input_is_one_clear_error() {
         ("remesh edge.off -n 100 -o m.ply", "edge 0-1"),
         ("remesh nothing.obj -n 100 -o m.ply", "nothing.obj"),
         ("remesh torus.off -o m.ply", "required"),
-        ("remesh torus.off -n 100 --spacing 1 -o m.ply", "cannot be used"),
+        ("remesh torus.off -n 100 --edge-length 1 -o m.ply", "cannot be used"),
         ("remesh torus.off -n 2 -o m.ply", "--n-points is 2"),
         ("remesh torus.off -n 300 --ascii -o m.obj", "--ascii is for .ply"),
         ("remesh torus.off -n 300 --weld 0 -o m.obj", "--weld is 0"),

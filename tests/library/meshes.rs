@@ -199,7 +199,8 @@ fn every_method_keeps_the_wanted_lengths() {
     let square = Polygon::from_rings(vec![rectangle([0.0, 0.0], [1.0, 1.0])]).unwrap();
     let wanted = |p: [f64; 2]| (0.0025 + 0.1 * (p[0] - 0.5).hypot(p[1] - 0.5)).min(0.025);
     for method in methods(300) {
-        let params = MeshParams { method: method.clone(), largest: Some(0.025), wanted: Some(&wanted), seed: 2, ..MeshParams::new(0.025) };
+        let params =
+            MeshParams { method: method.clone(), max_edge_length: Some(0.025), wanted: Some(&wanted), seed: 2, ..MeshParams::new(0.025) };
         let (mesh, _) = mesh(&square, &params, &mut RunContext::default()).unwrap();
         let mut by_size = [(0.0, 0.0); 5];
         for t in &mesh.triangles {
@@ -307,10 +308,11 @@ fn many_lines_are_no_trouble() {
 fn the_spacing_may_grow_away_from_the_border_or_be_given() {
     let square = polygon(vec![rectangle([0.0, 0.0], [1.0, 1.0])]);
     let even = meshed(&square, &MeshParams::new(0.02));
-    let graded = meshed(&square, &MeshParams { largest: Some(0.2), growth: 0.2, ..MeshParams::new(0.02) });
+    let graded = meshed(&square, &MeshParams { max_edge_length: Some(0.2), growth: 0.2, ..MeshParams::new(0.02) });
     assert!(graded.vertices.len() * 3 < even.vertices.len(), "{} {}", graded.vertices.len(), even.vertices.len());
     assert!(mesh_quality(&graded).min_angle_deg > 33.0);
-    let [even, graded] = [None, Some(2.0)].map(|largest| meshed(&square, &MeshParams { largest, growth: 1.0, ..MeshParams::new(0.1) }));
+    let [even, graded] =
+        [None, Some(2.0)].map(|largest| meshed(&square, &MeshParams { max_edge_length: largest, growth: 1.0, ..MeshParams::new(0.1) }));
     assert!(graded.vertices.len() + 20 < even.vertices.len(), "{} {}", graded.vertices.len(), even.vertices.len());
     let wanted = |[x, _]: [f64; 2]| 0.01 + 0.09 * x;
     let given = meshed(&square, &MeshParams { wanted: Some(&wanted), ..MeshParams::new(0.1) });

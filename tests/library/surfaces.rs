@@ -14,7 +14,7 @@ use proptest::prelude::*;
 use solids::{cone, cube, cylinder, genus_3, l_shape, moebius, needle, patch, sheet, slice, sphere, torus, touching_spheres};
 
 fn remeshed(surface: &Surface, n_points: usize, seed: u64) -> (Remeshed, Report) {
-    remesh(surface, &RemeshParams { n_points, seed, ..RemeshParams::default() }, &mut RunContext::default()).unwrap()
+    remesh(surface, &RemeshParams { n_vertices: n_points, seed, ..RemeshParams::default() }, &mut RunContext::default()).unwrap()
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -133,7 +133,7 @@ fn the_number_of_threads_changes_no_bit() {
 fn every_method_runs_and_keeps_the_number() {
     let surface = Surface::new(&sphere(16)).unwrap();
     let quality = |method: LocalMethod| {
-        let params = RemeshParams { n_points: 500, method, ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: 500, method, ..RemeshParams::default() };
         let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         assert_eq!(made.mesh.vertices.len(), 500);
         surface_quality(&Surface::new(&made.mesh).unwrap())
@@ -157,7 +157,7 @@ fn every_method_keeps_the_wanted_lengths() {
         LloydParams { iterations: 300, ..LloydParams::default() }.into(),
         DistMeshParams::default().into(),
     ] {
-        let params = RemeshParams { n_points: 1000, method: method.clone(), sizes: sizes.clone(), ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: 1000, method: method.clone(), sizes: sizes.clone(), ..RemeshParams::default() };
         let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         let mut by_size = [(0.0, 0.0); 6];
         for t in &made.mesh.triangles {
@@ -197,7 +197,7 @@ fn a_mesh_of_given_points_has_these_vertices() {
         for (n, seed) in [(n, 1), (2 * n, 2)] {
             let points = positions(&surface, SurfaceSampling::White(n), seed);
             let method = staying();
-            let params = RemeshParams { n_points: n, method, points, seed, features_deg: None, ..RemeshParams::default() };
+            let params = RemeshParams { n_vertices: n, method, points, seed, features_deg: None, ..RemeshParams::default() };
             let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
             let bits = |p: &[f64; 3]| p.map(f64::to_bits);
             let given: HashSet<[u64; 3]> = params.points.iter().map(bits).collect();
@@ -218,7 +218,7 @@ fn given_points_are_a_start_as_good_as_another() {
     let surface = Surface::new(&torus(40, 20)).unwrap();
     let start = positions(&surface, SurfaceSampling::White(1500), 4);
     for n_points in [1200, 1500] {
-        let params = RemeshParams { n_points, points: start.clone(), ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: n_points, points: start.clone(), ..RemeshParams::default() };
         let (made, report) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         assert_eq!((report.outcome, made.mesh.vertices.len()), (Outcome::Converged, n_points));
         assert_eq!(surface_quality(&Surface::new(&made.mesh).unwrap()).obtuse_triangles, 0);
@@ -226,7 +226,7 @@ fn given_points_are_a_start_as_good_as_another() {
     // On a border the given points stay, whatever their gaps.
     let square = Surface::new(&patch(1)).unwrap();
     let grid: Vec<[f64; 3]> = (0..121).map(|k| [f64::from(k / 11) / 10.0, f64::from(k % 11) / 10.0, 0.0]).collect();
-    let params = RemeshParams { n_points: 121, method: staying(), points: grid, ..RemeshParams::default() };
+    let params = RemeshParams { n_vertices: 121, method: staying(), points: grid, ..RemeshParams::default() };
     let (made, _) = remesh(&square, &params, &mut RunContext::default()).unwrap();
     assert!(made.mesh.vertices.iter().all(|p| params.points.iter().any(|q| distance(*p, *q) < 1e-12)));
     assert!((surface_quality(&Surface::new(&made.mesh).unwrap()).min_angle_deg - 45.0).abs() < 1e-6);
@@ -234,14 +234,14 @@ fn given_points_are_a_start_as_good_as_another() {
     for mesh in [torus(40, 20), cube(2)] {
         let surface = Surface::new(&mesh).unwrap();
         let (first, _) = remeshed(&surface, 900, 3);
-        let params = RemeshParams { n_points: 900, method: staying(), points: first.mesh.vertices.clone(), ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: 900, method: staying(), points: first.mesh.vertices.clone(), ..RemeshParams::default() };
         let (again, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         for p in &again.mesh.vertices {
             assert!(first.mesh.vertices.iter().any(|q| distance(*p, *q) < 1e-9), "{p:?}");
         }
     }
     let refused = |start: Vec<[f64; 3]>| {
-        let params = RemeshParams { n_points: start.len().max(10), points: start, ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: start.len().max(10), points: start, ..RemeshParams::default() };
         remesh(&surface, &params, &mut RunContext::default()).unwrap_err().to_string()
     };
     assert!(refused(vec![[1.0, 0.0, 0.0]; 9]).contains("at least as many"));
@@ -254,7 +254,7 @@ fn sizes_vary_and_angles_stay_certified() {
     let surface = Surface::new(&torus(60, 24)).unwrap();
     for sizing in [SurfaceSizing::Curvature { error: None }, SurfaceSizing::FeatureSize, SurfaceSizing::Linear { axis: 0, ratio: 3.0 }] {
         let sizes = surface_sizes(&surface, &sizing, Some(1500)).unwrap();
-        let params = RemeshParams { n_points: 1500, sizes, ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: 1500, sizes, ..RemeshParams::default() };
         let (made, report) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         let made = Surface::new(&made.mesh).unwrap();
         assert_eq!(made.n_vertices(), 1500);
@@ -277,7 +277,7 @@ fn creases_are_kept_where_sizes_vary_whatever_their_units() {
     let sizes = surface_sizes(&surface, &SurfaceSizing::Linear { axis: 2, ratio: 2.0 }, Some(900)).unwrap();
     let area = |unit: f64| {
         let sizes = sizes.iter().map(|size| unit * size).collect();
-        let params = RemeshParams { n_points: 900, sizes, ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: 900, sizes, ..RemeshParams::default() };
         let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
         surface_quality(&Surface::new(&made.mesh).unwrap()).area
     };
@@ -477,7 +477,7 @@ fn any_number_of_vertices_is_possible_from_the_least_on() {
     for (name, mesh, least) in [("triangle", triangle, 4), ("cube", cube(1), 10), ("sphere", sphere(12), 10), ("patch", patch(3), 4)] {
         let surface = Surface::new(&mesh).unwrap();
         for (n, seed) in (least..least + 20).flat_map(|n| [(n, 1), (n, 7)]) {
-            let made = remesh(&surface, &RemeshParams { n_points: n, seed, ..RemeshParams::default() }, &mut RunContext::default());
+            let made = remesh(&surface, &RemeshParams { n_vertices: n, seed, ..RemeshParams::default() }, &mut RunContext::default());
             assert_eq!(made.map(|(made, _)| made.mesh.vertices.len()), Ok(n), "{name}, {n}, {seed}");
         }
     }
@@ -497,7 +497,7 @@ fn no_two_vertices_are_in_one_place() {
 
 #[test]
 fn bad_input_is_one_clear_error() {
-    let params = |n_points: usize| RemeshParams { n_points, ..RemeshParams::default() };
+    let params = |n_points: usize| RemeshParams { n_vertices: n_points, ..RemeshParams::default() };
     let surface = Surface::new(&cube(1)).unwrap();
     for n in [0, 3] {
         assert!(remesh(&surface, &params(n), &mut RunContext::default()).is_err());
@@ -530,7 +530,7 @@ proptest! {
         let _ = Surface::new(&mesh);
         if let Ok(surface) = Surface::repaired(&mesh) {
             let params = RemeshParams {
-                n_points,
+                n_vertices: n_points,
                 points,
                 method: evenly::PushPullParams { max_passes: Some(20), ..evenly::PushPullParams::default() }.into(),
                 ..RemeshParams::default()
@@ -560,7 +560,7 @@ fn as_few_vertices_as_corners_do() {
         let surface = Surface::new(&mesh).unwrap();
         for n_points in n_corners..n_corners + 12 {
             let (remeshed, _) =
-                remesh(&surface, &RemeshParams { n_points, ..RemeshParams::default() }, &mut RunContext::default()).unwrap();
+                remesh(&surface, &RemeshParams { n_vertices: n_points, ..RemeshParams::default() }, &mut RunContext::default()).unwrap();
             assert_eq!(remeshed.mesh.vertices.len(), n_points);
             assert!(Surface::new(&remeshed.mesh).unwrap().euler_characteristic() == surface.euler_characteristic());
         }
@@ -571,7 +571,7 @@ fn as_few_vertices_as_corners_do() {
 #[test]
 fn meshes_settle_along_creases_and_at_right_angled_corners() {
     for seed in 0..3 {
-        let params = RemeshParams { n_points: 2000, seed, ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: 2000, seed, ..RemeshParams::default() };
         let made = |mesh: &TriangleMesh| {
             let (remeshed, report) = remesh(&Surface::new(mesh).unwrap(), &params, &mut RunContext::default()).unwrap();
             let quality = surface_quality(&Surface::new(&remeshed.mesh).unwrap());

@@ -37,7 +37,7 @@ def test_shapes_and_flat_models_are_taken():
     area = shapely.Point(0, 0).buffer(2).difference(shapely.Point(0, 0).buffer(1))
     points = evenly.generate(100, method="push-pull", space=area)
     assert all(area.buffer(1e-9).contains(shapely.Point(*place)) for place in points)
-    assert evenly.mesh(area, spacing=0.2).quality.area == pytest.approx(area.area)
+    assert evenly.mesh(area, edge_length=0.2).quality.area == pytest.approx(area.area)
     assert evenly.Polygon(shapely.MultiPolygon([shapely.box(0, 0, 1, 1), shapely.box(2, 0, 3, 1)])).area == pytest.approx(2)
     assert len(evenly.optimize(shapely.MultiPoint(BASE))) == 60
 
@@ -101,14 +101,14 @@ def test_what_only_looks_like_points_is_refused():
     with pytest.raises(ValueError, match="masked"):
         evenly.measure(masked)
     with pytest.raises(ValueError, match="vertices"):
-        evenly.measure(evenly.mesh([(0, 0), (1, 0), (1, 1)], spacing=0.5))
+        evenly.measure(evenly.mesh([(0, 0), (1, 0), (1, 1)], edge_length=0.5))
     with pytest.raises(ValueError, match="different spaces"):
         evenly.power_spectrum([evenly.generate(50), evenly.generate(50, size=(2, 1))])
 
 
 def test_empty_constraints_are_none():
     assert len(evenly.generate(20, fixed=[])) == 20
-    assert len(evenly.mesh([(0, 0), (1, 0), (1, 1)], spacing=0.5, fixed=np.empty((0, 2)), lines=[], sizes=[]).triangles) > 1
+    assert len(evenly.mesh([(0, 0), (1, 0), (1, 1)], edge_length=0.5, fixed=np.empty((0, 2)), lines=[], sizes=[]).triangles) > 1
 
 
 @pytest.mark.parametrize(

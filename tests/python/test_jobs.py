@@ -47,7 +47,7 @@ def interrupted(code):
     "call",
     [
         f"evenly.generate({N}, method='lloyd', iterations=100_000, callback=ready)",
-        "evenly.mesh([(0, 0), (1, 0), (1, 1), (0, 1)], spacing=0.003, method='lloyd', iterations=100_000, callback=ready)",
+        "evenly.mesh([(0, 0), (1, 0), (1, 1), (0, 1)], edge_length=0.003, method='lloyd', iterations=100_000, callback=ready)",
         "evenly.stipple(numpy.tile(numpy.linspace(0, 1, 500), (500, 1)), 200_000, method='lloyd', iterations=100_000, callback=ready)",
     ],
 )

@@ -46,7 +46,7 @@ def test_spectra_are_of_one_set_or_several():
 
 def test_meshes_conform_and_are_written(tmp_path):
     line, fixed = [(0.2, 0.2), (0.8, 0.4)], [(0.5, 0.8)]
-    mesh = evenly.mesh(SQUARE, spacing=0.1, lines=[line], fixed=fixed)
+    mesh = evenly.mesh(SQUARE, edge_length=0.1, lines=[line], fixed=fixed)
     assert mesh.quality.area == pytest.approx(1) and mesh.outcome == "converged"
     assert mesh.triangles.max() < len(mesh.vertices) and sorted(set(mesh.tags)) == [-1, 0, 1, 2, 3]
     assert (mesh.vertices == fixed[0]).all(axis=1).any()
@@ -60,14 +60,14 @@ def test_meshes_conform_and_are_written(tmp_path):
 
 
 def test_meshes_follow_sizes_densities_and_methods():
-    even = len(evenly.mesh(SQUARE, spacing=0.1).triangles)
-    assert len(evenly.mesh(SQUARE, spacing=0.1, sizes=[(0.5, 0.5, 0.01)]).triangles) > 1.8 * even
+    even = len(evenly.mesh(SQUARE, edge_length=0.1).triangles)
+    assert len(evenly.mesh(SQUARE, edge_length=0.1, sizes=[(0.5, 0.5, 0.01)]).triangles) > 1.8 * even
     by_density = evenly.mesh(SQUARE, n_triangles=1000, density=lambda x, y: np.exp(3 * x))
     assert by_density.vertices[:, 0].mean() > 0.6 and 800 < len(by_density.triangles) < 1300
     for method in ("opt-beta", "lloyd", "distmesh"):
-        assert evenly.mesh(SQUARE, spacing=0.1, method=method).quality.min_angle_deg > 30
-    assert evenly.mesh(SQUARE, spacing=0.05, no_obtuse=True).quality.obtuse_triangles == 0
-    assert evenly.mesh([(0, 0), (1, 0), (0.5, 0.05)], spacing=0.05, min_angle=30).quality.min_angle_deg < 30
+        assert evenly.mesh(SQUARE, edge_length=0.1, method=method).quality.min_angle_deg > 30
+    assert evenly.mesh(SQUARE, edge_length=0.05, no_obtuse=True).quality.obtuse_triangles == 0
+    assert evenly.mesh([(0, 0), (1, 0), (0.5, 0.05)], edge_length=0.05, min_angle=30).quality.min_angle_deg < 30
 
 
 @pytest.mark.parametrize(
@@ -166,7 +166,7 @@ def test_figures_return_their_axes(tmp_path):
         axes.figure.savefig(tmp_path / "figure.png")
         own = plt.subplots()[1]
         assert figure(points, ax=own) is own
-    assert plot.triangulation(evenly.mesh(SQUARE, spacing=0.2)).collections
+    assert plot.triangulation(evenly.mesh(SQUARE, edge_length=0.2)).collections
     assert plot.points(evenly.generate(50, space=SQUARE)).collections
     assert plot.report(points).shape == (2, 2)
     plt.close("all")
@@ -174,7 +174,7 @@ def test_figures_return_their_axes(tmp_path):
 
 def test_regions_are_kept_apart_and_survive_being_saved(tmp_path):
     left, right = [(0, 0), (1, 0), (1, 1), (0, 1)], [(1, 0), (2, 0), (2, 1), (1, 1)]
-    mesh = evenly.mesh(regions={"left": left, "right": right}, spacing=0.1)
+    mesh = evenly.mesh(regions={"left": left, "right": right}, edge_length=0.1)
     assert mesh.region_names == ("left", "right") and mesh.regions.shape == (len(mesh.triangles),)
     middles = mesh.vertices[mesh.triangles].mean(axis=1)
     assert np.array_equal(mesh.regions, (middles[:, 0] > 1).astype(int))
@@ -182,18 +182,18 @@ def test_regions_are_kept_apart_and_survive_being_saved(tmp_path):
     assert len(between) >= 9 and np.all(mesh.vertices[between][:, :, 0] == 1)
     # As by the command line, which has the parts of a file.
     (tmp_path / "parts.wkt").write_text("MULTIPOLYGON(((0 0,1 0,1 1,0 1,0 0)),((1 0,2 0,2 1,1 1,1 0)))")
-    of_file = evenly.mesh(regions=tmp_path / "parts.wkt", spacing=0.1)
+    of_file = evenly.mesh(regions=tmp_path / "parts.wkt", edge_length=0.1)
     assert np.array_equal(of_file.vertices, mesh.vertices) and of_file.region_names == ("region 1", "region 2")
     mesh.save(tmp_path / "mesh.msh")
     assert '"right"' in (tmp_path / "mesh.msh").read_text()
-    assert len(evenly.mesh(left, spacing=0.3).regions) == 0
+    assert len(evenly.mesh(left, edge_length=0.3).regions) == 0
     for bad in ({"regions": []}, {"regions": 3}, {"regions": {"left": left}, "simplify": 0.1}, {}):
         with pytest.raises(ValueError, match="region|polygon"):
-            evenly.mesh(spacing=0.1, **bad)
+            evenly.mesh(edge_length=0.1, **bad)
 
 
 def test_a_mesh_with_sharp_corners_is_saved_whole(tmp_path):
-    mesh = evenly.mesh([(0, 0), (4, 0), (4, 0.5)], spacing=0.1)
+    mesh = evenly.mesh([(0, 0), (4, 0), (4, 0.5)], edge_length=0.1)
     assert mesh.n_in_corners > 0
     mesh.save(tmp_path / "mesh.svg")
     assert mesh.svg() == mesh.svg() and (tmp_path / "mesh.svg").read_text().startswith("<svg")

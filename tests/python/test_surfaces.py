@@ -54,7 +54,7 @@ def test_sizes_features_and_methods():
     given = evenly.remesh((vertices, triangles), 800, density=np.where(vertices[:, 0] > 0, 2.0, 1.0))
     assert (by_axis.vertices[:, 0] < 0).sum() > 500 < (given.vertices[:, 0] < 0).sum()
     assert evenly.remesh((vertices, triangles), density="curvature:0.01").distance.max_from_reference < 0.05
-    assert abs(evenly.remesh((vertices, triangles), spacing=0.2).quality.spacing - 0.2) < 0.01
+    assert abs(evenly.remesh((vertices, triangles), edge_length=0.2).quality.spacing - 0.2) < 0.01
     kept = evenly.remesh(OCTAHEDRON, 500)
     assert {(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)} <= set(map(tuple, kept.vertices.tolist()))
     assert evenly.remesh(OCTAHEDRON, 500, features="off", method="lloyd").quality.mean_quality > 0.85

@@ -23,7 +23,7 @@ Examples:
   evenly optimize points.csv --size 640,480 -o better.csv
   evenly analyze better.csv --size 640,480 --json
   evenly stipple photo.jpg -n 20000 -o drawing.svg
-  evenly mesh area.geojson --spacing 50 -o area.msh
+  evenly mesh area.geojson --edge-length 50 -o area.msh
   evenly remesh bunny.obj -n 8500 -o out.ply
   evenly compare -n 1000 --methods lloyd,well-spaced,push-pull -o table.html
 

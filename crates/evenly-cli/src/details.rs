@@ -21,7 +21,7 @@ pub fn told(polygon: &Polygon, params: &MeshParams, n_triangles: usize, wanted: 
         // What stands alone, or what must be a vertex or an edge: that stays.
         return Some(cost);
     }
-    let tolerances: Vec<f64> = TRIED.map(|k| params.spacing * f64::from(k).exp2()).collect();
+    let tolerances: Vec<f64> = TRIED.map(|k| params.edge_length * f64::from(k).exp2()).collect();
     Some(match polygon.least_simplification(&tolerances, has_few) {
         Ok(Some(tolerance)) => format!("{cost}; --simplify {} would save half of them or more", rounded(tolerance)),
         _ => cost,

@@ -30,11 +30,11 @@ mod surface_measures;
 mod table;
 mod talk;
 mod unmet;
+mod usage;
 pub mod wishes;
 
 use std::ffi::OsString;
 
-use clap::error::ErrorKind;
 use clap::{CommandFactory as _, FromArgMatches as _, ValueEnum as _};
 use evenly::Density;
 use evenly_io::Draw;
@@ -51,10 +51,10 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
     record::keep_command(&words);
     interrupt::listen();
-    let parsed = Cli::command().try_get_matches_from(words).and_then(|matches| Cli::from_arg_matches(&matches));
+    let parsed = Cli::command().try_get_matches_from(&words).and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = match parsed {
         Ok(parsed) => parsed,
-        Err(error) => return usage(&error),
+        Err(error) => return usage::show(&error, &words),
     };
     memory::keep_within(cli.memory);
     let done = match &cli.command {
@@ -98,25 +98,4 @@ pub fn density(words: &str) -> anyhow::Result<Density> {
 /// There is none of that name.
 pub fn draw(name: &str) -> anyhow::Result<Draw> {
     DrawArg::from_str(name, false).map(Into::into).map_err(|_| anyhow::anyhow!("nothing to draw has the name {name:?}"))
-}
-
-/// Help goes out as it is; an error becomes one line.
-fn usage(error: &clap::Error) -> u8 {
-    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        return if error.print().is_ok() { session::DONE } else { BAD_INPUT };
-    }
-    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        say(error.to_string().trim_end());
-        return BAD_INPUT;
-    }
-    say(format_args!("error: {}; see --help", plain(error)));
-    BAD_INPUT
-}
-
-/// What is wrong, in a line.
-fn plain(error: &clap::Error) -> anyhow::Error {
-    let text = error.to_string();
-    let what: Vec<&str> = text.lines().take_while(|line| !line.trim().is_empty()).map(str::trim).collect();
-    let what = what.join(" ");
-    anyhow::Error::msg(what.strip_prefix("error: ").unwrap_or(&what).to_owned())
 }

@@ -12,7 +12,7 @@ use crate::shared_args::{DensityArgs, LongArgs};
 
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  evenly mesh area.geojson --spacing 50 -o area.msh\n  evenly mesh plate.svg -n 20000 --no-obtuse -o plate.vtu --cells cells.geojson\n\n\
+    after_help = "Examples:\n  evenly mesh area.geojson --edge-length 50 -o area.msh\n  evenly mesh plate.svg -n 20000 --no-obtuse -o plate.vtu --cells cells.geojson\n\n\
                   Polygons: GeoJSON, WKT, shapefiles, SVG (what its shapes enclose), or text: x y a line, a blank line between rings, holes inside.\n\
                   Red triangles in drawings have an angle below 25 degrees, light red ones are obtuse.\n\
                   Exit code 1: the mesh is written, but has angles below --min-angle or obtuse ones with --no-obtuse; where and why is said."
@@ -61,11 +61,11 @@ pub struct Mesh {
 
 /// What a mesh is to be.
 #[derive(Args)]
-#[command(group = ArgGroup::new("size").required(true).args(["spacing", "n_triangles"]))]
+#[command(group = ArgGroup::new("size").required(true).args(["edge_length", "n_triangles"]))]
 pub struct MeshWishes {
     /// The wanted length of edges, in the polygon's units; shorter where the border is detailed or the domain narrow
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
-    pub spacing: Option<f64>,
+    pub edge_length: Option<f64>,
     /// About how many triangles, instead; there are more where the border is detailed
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_triangles: Option<usize>,
@@ -85,7 +85,7 @@ pub struct MeshWishes {
     pub grade: Option<f64>,
     /// The longest edges wanted, where they grow [default: no limit with --grade]
     #[arg(long, value_name = "H", allow_negative_numbers = true, requires = "grade", help_heading = "Size")]
-    pub max_spacing: Option<f64>,
+    pub max_edge_length: Option<f64>,
     #[command(flatten)]
     pub density: DensityArgs,
     /// No angle shall be smaller, in degrees, up to 35; but in sharper corners of the polygon [default: 25]

@@ -16,8 +16,13 @@ use crate::sizes::Sizes;
 use crate::unmet::{Unmet, forced, unmet};
 
 /// Parameters, and the flags that hold them.
-const FLAGS: [(&str, &str); 5] =
-    [("simplify", "simplify"), ("spacing", "spacing"), ("growth", "grade"), ("largest", "max-spacing"), ("min_angle_deg", "min-angle")];
+const FLAGS: [(&str, &str); 5] = [
+    ("simplify", "simplify"),
+    ("edge_length", "edge-length"),
+    ("growth", "grade"),
+    ("max_edge_length", "max-edge-length"),
+    ("min_angle_deg", "min-angle"),
+];
 /// No angle is to be smaller, if nothing else is said, in degrees.
 const LEAST_ANGLE_DEG: f64 = 25.0;
 /// The spacing for so many triangles is no more than so many times that without details.
@@ -108,7 +113,7 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
     let method = wishes.mesh_method()?;
     let implied_angle_deg = wishes.implied_angle_deg(method.as_ref());
     let of_triangles = |n: usize| triangle_side(polygon.area(), n as f64);
-    let mut spacing = wishes.spacing.unwrap_or_else(|| of_triangles(wishes.n_triangles.unwrap_or(1)));
+    let mut spacing = wishes.edge_length.unwrap_or_else(|| of_triangles(wishes.n_triangles.unwrap_or(1)));
     let n_repairs = polygon.repairs().len();
     let corners = |polygon: &Polygon| polygon.rings().iter().map(Vec::len).sum::<usize>();
     let mut notes = Vec::new();
@@ -129,7 +134,7 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
     let told = |e| names.told(e);
     let params_of = |spacing: f64| MeshParams {
         growth,
-        largest: match (wishes.grade, wishes.max_spacing) {
+        max_edge_length: match (wishes.grade, wishes.max_edge_length) {
             (None, _) => sizes.as_ref().map(|sizes| sizes.largest(spacing).max(spacing)),
             (Some(_), Some(largest)) => Some(largest),
             // As far as it grows.
@@ -169,7 +174,7 @@ pub fn meshed(polygon: &Polygon, names: Names, wishes: &MeshWishes, given: Given
     Ok(Meshed { parameters: serde_json::json!(params), mesh, report, implied_angle_deg })
 }
 
-/// Wishes in the command line's words, as `--spacing=0.1`.
+/// Wishes in the command line's words, as `--edge-length=0.1`.
 ///
 /// # Errors
 /// What the command line says of them.

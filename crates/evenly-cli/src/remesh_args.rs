@@ -13,7 +13,7 @@ use crate::shared_args::LongArgs;
 
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  evenly remesh bunny.obj -n 8500 -o out.ply\n  evenly remesh part.stl --spacing 2.5 --features 30deg -o part.obj\n  evenly remesh scan.ply -n 20000 --density curvature -o out.ply --plot out.png\n\n\
+    after_help = "Examples:\n  evenly remesh bunny.obj -n 8500 -o out.ply\n  evenly remesh part.stl --edge-length 2.5 --features 30deg -o part.obj\n  evenly remesh scan.ply -n 20000 --density curvature -o out.ply --plot out.png\n\n\
                   Meshes: .obj .ply .stl .off .gltf .glb; positions that are equal are one. Vertices carry facet, barycentric coordinates, normal, and what the input's carry, in .ply .vtu .npz.\n\
                   Red triangles in drawings have an angle below 30 degrees, light red ones are obtuse.\n\
                   Exit code 1: the mesh is written, but targets that were given were not reached everywhere, or without them a triangle is obtuse or has an angle below 30 degrees; where is said."
@@ -47,14 +47,14 @@ pub struct Remesh {
 
 /// What a new mesh is to be.
 #[derive(Args)]
-#[command(group = ArgGroup::new("size").required(true).multiple(true).args(["n_points", "spacing", "density", "points"]))]
+#[command(group = ArgGroup::new("size").required(true).multiple(true).args(["n_vertices", "edge_length", "density", "points"]))]
 pub struct RemeshWishes {
     /// How many vertices, exactly
-    #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "spacing")]
-    pub n_points: Option<usize>,
+    #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "edge_length")]
+    pub n_vertices: Option<usize>,
     /// The length of edges, in the input's units, instead; with a density their mean
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
-    pub spacing: Option<f64>,
+    pub edge_length: Option<f64>,
     /// Points at which vertices begin, as many as are wanted or more: .csv or .txt with x y z, .ply, or the vertices of a mesh; -n is their number unless given
     #[arg(long, value_name = "FILE")]
     pub points: Option<PathBuf>,

@@ -21,7 +21,7 @@ use crate::remesh_args::density_path;
 
 /// Parameters, and the flags that hold them.
 const FLAGS: [(&str, &str); 7] = [
-    ("n_points", "n-points"),
+    ("n_vertices", "n-vertices"),
     ("features_deg", "features"),
     ("error", "density curvature"),
     ("sizes", "density"),
@@ -120,16 +120,16 @@ pub fn remeshed(
     let told = |e| told(e, name, &FLAGS);
     let (points, n_equal) = distinct(points);
     let of_points = (!points.is_empty()).then_some(points.len());
-    if let Some(n) = of_points.filter(|&n| n < 4 && wishes.n_points.is_none()) {
+    if let Some(n) = of_points.filter(|&n| n < 4 && wishes.n_vertices.is_none()) {
         bail!("--points has {n} in different places; it must have 4 or more");
     }
-    let mut n_points = number_of(surface, wishes.n_points, wishes.spacing)?.or(of_points);
+    let mut n_points = number_of(surface, wishes.n_vertices, ("edge-length", wishes.edge_length))?.or(of_points);
     let mut sizes = Vec::new();
     if let Some(sizing) = sizing {
         sizes = surface_sizes(surface, sizing, n_points).map_err(told)?;
         n_points = n_points.or(Some((expected_vertices(surface, &sizes).round() as usize).max(4)));
     }
-    let Some(n_points) = n_points else { bail!("--n-points or --spacing is missing: how many vertices?") };
+    let Some(n_points) = n_points else { bail!("--n-vertices or --edge-length is missing: how many vertices?") };
     memory::require_vertices(n_points)?;
     if wishes.method_args.is_given("tolerance") && !wishes.method.takes("tolerance") {
         bail!("--tolerance ends methods that have one; how far the input may be from the mesh is --max-deviation");
@@ -141,7 +141,8 @@ pub fn remeshed(
     let default = if sizes.is_empty() { RemeshParams::default().max_deviation } else { Some(SIZED_DEVIATION) };
     let max_deviation = wishes.max_deviation.map_or(default, |wanted| wanted.0);
     let features_deg = wishes.features.0;
-    let params = RemeshParams { n_points, method: method.clone(), features_deg, max_deviation, sizes, points, seed: wishes.seed };
+    let params =
+        RemeshParams { n_vertices: n_points, method: method.clone(), features_deg, max_deviation, sizes, points, seed: wishes.seed };
     let (mut remeshed, mut report) = remesh(surface, &params, run).map_err(told)?;
     round(&mut remeshed.mesh);
     if n_equal > 0 {
@@ -223,13 +224,13 @@ pub(crate) fn method_of(method: Method, args: &MethodArgs<OnMeshes>, seed: u64) 
     method.on_meshes(&args.of(method), seed).map_err(by_flag)
 }
 
-/// How many vertices are asked for, by their number or by a spacing.
-pub(crate) fn number_of(surface: &Surface, n_points: Option<usize>, spacing: Option<f64>) -> anyhow::Result<Option<usize>> {
-    if let Some(spacing) = spacing.filter(|&spacing| !(spacing > 0.0 && spacing.is_finite())) {
-        bail!("--spacing is {spacing}; it must be positive and finite");
+/// How many points are asked for, by their number or by a length, given with its flag.
+pub(crate) fn number_of(surface: &Surface, n: Option<usize>, (flag, length): (&str, Option<f64>)) -> anyhow::Result<Option<usize>> {
+    if let Some(length) = length.filter(|&length| !(length > 0.0 && length.is_finite())) {
+        bail!("--{flag} is {length}; it must be positive and finite");
     }
-    let of_spacing = |spacing: f64| (expected_vertices(surface, &vec![spacing; surface.n_vertices()]).round() as usize).max(4);
-    Ok(n_points.or(spacing.map(of_spacing)))
+    let of_length = |length: f64| (expected_vertices(surface, &vec![length; surface.n_vertices()]).round() as usize).max(4);
+    Ok(n.or(length.map(of_length)))
 }
 
 /// Points without those that share a place with an earlier one, and how many these are.

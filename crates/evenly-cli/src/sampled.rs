@@ -33,7 +33,7 @@ pub fn sampled(
     run: &mut RunContext,
 ) -> anyhow::Result<(Vec<SurfacePoint>, Report)> {
     let told = |e| told(e, name, &FLAGS);
-    let n_points = number_of(surface, wishes.n_points, wishes.spacing)?.unwrap_or_default();
+    let n_points = number_of(surface, wishes.n_points, ("spacing", wishes.spacing))?.unwrap_or_default();
     memory::require_vertices(n_points)?;
     let sampling = match (wishes.method.name(), wishes.spacing) {
         (WHITE, _) => SurfaceSampling::White(n_points),

@@ -53,8 +53,9 @@ struct DrawingArgs {
 /// # Errors
 /// What the command line says of the flags; a picture without any tone.
 pub fn stipple(photograph: &Photograph, n_points: usize, words: &[String], run: &mut RunContext) -> anyhow::Result<Vec<Layer>> {
-    let matches = Flags::command().try_get_matches_from(words).map_err(|error| crate::plain(&error))?;
-    let Flags { method, method_args, seed, tone, drawing } = Flags::from_arg_matches(&matches).map_err(|error| crate::plain(&error))?;
+    let matches = Flags::command().try_get_matches_from(words).map_err(|error| crate::usage::plain(&error))?;
+    let Flags { method, method_args, seed, tone, drawing } =
+        Flags::from_arg_matches(&matches).map_err(|error| crate::usage::plain(&error))?;
     let tone = tone.tone()?;
     let space: Space = Rectangle::new([0.0, 0.0], photograph.size().map(|n| n as f64)).context("the picture")?.into();
     method_args.refuse_others(&[method])?;

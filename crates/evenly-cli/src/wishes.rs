@@ -59,7 +59,7 @@ impl Wishes {
     /// What the command line says of them.
     pub fn parse(words: &[String]) -> anyhow::Result<Self> {
         let matches = Flags::command().try_get_matches_from(words);
-        let flags = matches.and_then(|matches| Flags::from_arg_matches(&matches)).map_err(|error| crate::plain(&error))?;
+        let flags = matches.and_then(|matches| Flags::from_arg_matches(&matches)).map_err(|error| crate::usage::plain(&error))?;
         flags.method_args.refuse_others(&[flags.method])?;
         refuse_beginning(flags.method, flags.start.is_some(), flags.warp.no_warp)?;
         let optimizer = flags.method.optimizer(&flags.method_args.of(flags.method), flags.seed).map_err(by_flag)?;

@@ -171,5 +171,5 @@ fn in_python(message: &str) -> String {
         let named = rest.strip_prefix(" <").and_then(|rest| rest.split_once('>'));
         text.push_str(named.map_or(rest, |(_, after)| after));
     }
-    text.replace("n_points", "n")
+    text.replace("n_points", "n").replace("n_vertices", "n")
 }

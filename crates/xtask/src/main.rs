@@ -96,7 +96,7 @@ fn gallery() -> bool {
             "docs/gallery/polygon.png",
         ],
         &["mesh", "target/polygons/coast.txt", "-n", "6000", "--grade", "0.2", "-o", "docs/gallery/coast.png"],
-        &["mesh", "target/polygons/plate.txt", "--spacing", "0.04", "--no-obtuse", "-o", "docs/gallery/plate.png"],
+        &["mesh", "target/polygons/plate.txt", "--edge-length", "0.04", "--no-obtuse", "-o", "docs/gallery/plate.png"],
     ];
     let example = |name: &str, path: &str| cargo(&["run", "--release", "--package", "evenly-io", "--example", name, path]);
     let is_drawn = example("03_scenes", "target/scenes")

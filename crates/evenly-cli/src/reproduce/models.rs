@@ -109,14 +109,14 @@ type Row = (&'static str, [f64; 10], String);
 fn measured(lab: &Lab, model: &Model, surface: &Surface) -> anyhow::Result<Vec<Row>> {
     let n_points = lab.pick(model.n_points / 5, model.n_points);
     let sizes = if model.is_adaptive { curvature(surface, n_points)? } else { Vec::new() };
-    let usual = RemeshParams { n_points, sizes, ..RemeshParams::default() };
+    let usual = RemeshParams { n_vertices: n_points, sizes, ..RemeshParams::default() };
     let mut wanted = vec![(PUSH_PULL, usual.clone()), (CVT, RemeshParams { method: LloydParams::default().into(), ..usual.clone() })];
     if !model.is_adaptive {
         let sampling = SurfaceSampling::poisson_disk_of(surface, n_points);
         let (points, _) = sample_surface(surface, &SampleParams { sampling, sizes: Vec::new(), seed: 0 }, &mut RunContext::default())?;
         let points: Vec<[f64; 3]> = points.iter().map(|point| point.position).collect();
         let method = named("eliminate")?.on_meshes(&Settings::default(), 0)?;
-        wanted.push((MPS, RemeshParams { n_points: points.len(), points, method, features_deg: None, ..usual }));
+        wanted.push((MPS, RemeshParams { n_vertices: points.len(), points, method, features_deg: None, ..usual }));
     }
     let row = |(name, params): (&'static str, RemeshParams)| {
         let (made, _) = run(lab, surface, &params)?;
@@ -155,7 +155,7 @@ pub fn figure_3(lab: &Lab) -> anyhow::Result<Part> {
     let mut rows = Vec::new();
     for (name, n_points, is_local) in [("uniform", lab.pick(900, 4500), false), ("adaptive", lab.pick(1200, 6000), true)] {
         let sizes = if is_local { curvature(&surface, n_points)? } else { Vec::new() };
-        let (made, _) = run(lab, &surface, &RemeshParams { n_points, sizes, ..RemeshParams::default() })?;
+        let (made, _) = run(lab, &surface, &RemeshParams { n_vertices: n_points, sizes, ..RemeshParams::default() })?;
         let new = Surface::repaired(&made.mesh)?;
         let vertices = &made.mesh.vertices;
         let (quality, spectrum) = (surface_quality(&new), surface_spectrum(&surface, vertices, is_local)?);

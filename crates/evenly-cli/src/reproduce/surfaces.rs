@@ -54,7 +54,8 @@ fn sized(lab: &Lab, part: &mut Part, surface: &Surface, sizes: &[f64], n_points:
     ];
     let (mut rows, mut betas, mut angles, mut figures) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (name, method) in methods {
-        let params = RemeshParams { n_points, method, sizes: sizes.to_vec(), max_deviation: None, seed: 1, ..RemeshParams::default() };
+        let params =
+            RemeshParams { n_vertices: n_points, method, sizes: sizes.to_vec(), max_deviation: None, seed: 1, ..RemeshParams::default() };
         let (made, passes) = run(lab, surface, &params)?;
         let q = surface_quality(&Surface::new(&made.mesh)?);
         let (local, corners) = local_betas(&made.mesh);
@@ -116,7 +117,7 @@ pub fn figure_14(lab: &Lab) -> anyhow::Result<Part> {
     let mut figures = Vec::new();
     let table = part.table(&["beta", "theta_min", "theta_max", "valence 6, %", "passes"]);
     for (name, method, printed) in methods {
-        let params = RemeshParams { n_points: 1000, method, seed: 1, ..RemeshParams::default() };
+        let params = RemeshParams { n_vertices: 1000, method, seed: 1, ..RemeshParams::default() };
         let (made, passes) = run(lab, &surface, &params)?;
         let q = surface_quality(&Surface::new(&made.mesh)?);
         table.row(name, &[q.beta, q.min_angle_deg, q.max_angle_deg, 100.0 * q.valence_6_fraction, passes as f64], printed);
@@ -136,7 +137,7 @@ pub fn model(lab: &Lab, name: &str) -> anyhow::Result<Option<Surface>> {
 /// A run, and how many passes it took.
 pub fn run(lab: &Lab, surface: &Surface, params: &RemeshParams) -> anyhow::Result<(Remeshed, usize)> {
     lab.check()?;
-    lab.bar.set_message(format!("{}, {} vertices", params.method.method(), params.n_points));
+    lab.bar.set_message(format!("{}, {} vertices", params.method.method(), params.n_vertices));
     let (made, report) = remesh(surface, params, &mut RunContext::default().with_cancel(lab.cancel.clone()))?;
     if report.outcome == Outcome::Cancelled {
         return Err(Interrupted.into());

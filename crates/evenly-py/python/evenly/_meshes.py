@@ -126,13 +126,13 @@ class Mesh(Frozen):
 def mesh(
     polygon: object = None,
     *,
-    spacing: float | None = None,
+    edge_length: float | None = None,
     n_triangles: int | None = None,
     simplify: float | None = None,
     seed: Seed = 0,
     method: OnMeshes = "push-pull",
     grade: float | None = None,
-    max_spacing: float | None = None,
+    max_edge_length: float | None = None,
     sizes: "ArrayLike | object | None" = None,
     density: Density = None,
     min_angle: float | None = None,
@@ -150,7 +150,7 @@ def mesh(
     ----------
     polygon : Polygon, shapely polygon, file, ring or rings
         See `Polygon`. May be left out with `regions`: what these cover together.
-    spacing : float, optional
+    edge_length : float, optional
         The wanted length of edges, in input units; shorter where the border is detailed or the domain narrow. This or `n_triangles`.
     n_triangles : int, optional
         About how many triangles, instead.
@@ -162,10 +162,10 @@ def mesh(
         By which rule points move.
     grade : float, optional
         Let edges grow away from the border, by so much a length.
-    max_spacing : float, optional
+    max_edge_length : float, optional
         The longest edges wanted, where they grow.
     sizes : array_like of shape (k, 3), optional
-        Wanted lengths of edges at points, as x, y and length, where they are to be shorter than `spacing`; they grow from there by `grade`, or 0.25, a length.
+        Wanted lengths of edges at points, as x, y and length, where they are to be shorter than `edge_length`; they grow from there by `grade`, or 0.25, a length.
     density : optional
         How many vertices are wanted where, in the polygon's frame; see `generate`.
     min_angle : float, optional
@@ -200,12 +200,12 @@ def mesh(
     --------
     >>> import evenly
     >>> l_shape = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-    >>> mesh = evenly.mesh(l_shape, spacing=0.1, no_obtuse=True)
+    >>> mesh = evenly.mesh(l_shape, edge_length=0.1, no_obtuse=True)
     >>> mesh.quality.obtuse_triangles, mesh.quality.min_angle_deg > 40
     (0, True)
     """
-    if (spacing is None) == (n_triangles is None):
-        raise ValueError("give either spacing or n_triangles")
+    if (edge_length is None) == (n_triangles is None):
+        raise ValueError("give either edge_length or n_triangles")
     parts = _named(regions)
     if polygon is None and not parts:
         raise ValueError("give a polygon, or regions")
@@ -215,13 +215,13 @@ def mesh(
     chance = number(seed)
     given = words(
         {
-            "spacing": spacing,
+            "edge_length": edge_length,
             "n_triangles": n_triangles,
             "simplify": simplify,
             "seed": chance,
             "method": method,
             "grade": grade,
-            "max_spacing": max_spacing,
+            "max_edge_length": max_edge_length,
             "min_angle": min_angle,
             "no_obtuse": no_obtuse,
         }

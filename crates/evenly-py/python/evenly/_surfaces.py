@@ -198,7 +198,7 @@ def remesh(
     shape: object,
     n: int | None = None,
     *,
-    spacing: float | None = None,
+    edge_length: float | None = None,
     seed: Seed = 0,
     method: OnMeshes = "push-pull",
     density: "str | ArrayLike | None" = None,
@@ -218,8 +218,8 @@ def remesh(
     shape : mesh, file, or pair of arrays
         What trimesh, pyvista and meshio have; a path to .obj, .ply, .stl, .off, .gltf or .glb; or vertices of shape (k, 3) and triangles of shape (l, 3).
     n : int, optional
-        How many vertices, exactly. This, `spacing`, a density with an error, or points.
-    spacing : float, optional
+        How many vertices, exactly. This, `edge_length`, a density with an error, or points.
+    edge_length : float, optional
         The length of edges, in input units, instead.
     seed : int, SeedSequence, Generator or None
         As in `generate`.
@@ -265,19 +265,19 @@ def remesh(
     (500, True)
     """
     has_sizes = density is not None and not isinstance(density, str)
-    if n is not None and spacing is not None:
-        raise ValueError("give either n or spacing")
+    if n is not None and edge_length is not None:
+        raise ValueError("give either n or edge_length")
     begin = None if points is None else rows(points, "points", 3)
-    if n is None and spacing is None and begin is not None:
+    if n is None and edge_length is None and begin is not None:
         n = len(begin)
-    if n is None and spacing is None and (density is None or has_sizes):
-        raise ValueError("n or spacing is missing: how many vertices?")
+    if n is None and edge_length is None and (density is None or has_sizes):
+        raise ValueError("n or edge_length is missing: how many vertices?")
     sizes = None if not has_sizes else _sizes(density)
     chance = number(seed)
     given = words(
         {
-            "n_points": n,
-            "spacing": spacing,
+            "n_vertices": n,
+            "edge_length": edge_length,
             "seed": chance,
             "method": method,
             "density": None if has_sizes else density,

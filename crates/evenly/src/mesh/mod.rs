@@ -67,10 +67,10 @@ const MOST_TRIES: usize = 8;
 #[derive(Clone, Serialize)]
 pub struct MeshParams<'a> {
     /// The wanted length of edges, in input units; positive. They are shorter where the border is detailed or the domain narrow.
-    pub spacing: f64,
-    /// The largest spacing inside, in input units; `None` for `spacing`, which edges on the border never exceed by much. More lets triangles grow away from it.
-    pub largest: Option<f64>,
-    /// By how much the spacing may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones; where no triangle shall be obtuse, it may be made less.
+    pub edge_length: f64,
+    /// The longest edges wanted inside, in input units; `None` for `edge_length`, which edges on the border never exceed by much. More lets triangles grow away from it.
+    pub max_edge_length: Option<f64>,
+    /// By how much edges may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones; where no triangle shall be obtuse, it may be made less.
     pub growth: f64,
     /// How points find their places; `None` for Push-Pull to targets that suit the demands. Those on the border and on lines move along their segment, and corners stay, whatever the
     /// method. Where triangles are bad then, points are added or removed and the method goes on there; the last bad ones are polished.
@@ -85,7 +85,7 @@ pub struct MeshParams<'a> {
     pub lines: Vec<Vec<[f64; 2]>>,
     /// Parts of the domain that are kept apart.
     pub regions: Vec<MeshRegion>,
-    /// A spacing for each place, both in input units, where it is to be less than `spacing` or `largest`.
+    /// A spacing for each place, both in input units, where it is to be less than `edge_length` or `max_edge_length`.
     #[serde(skip)]
     pub wanted: Option<&'a (dyn Fn([f64; 2]) -> f64 + Sync)>,
     /// The points depend on it.
@@ -93,11 +93,11 @@ pub struct MeshParams<'a> {
 }
 
 impl MeshParams<'_> {
-    /// The same spacing everywhere, but where the border asks for less.
-    pub fn new(spacing: f64) -> Self {
+    /// Edges of one length everywhere, but where the border asks for less.
+    pub fn new(edge_length: f64) -> Self {
         Self {
-            spacing,
-            largest: None,
+            edge_length,
+            max_edge_length: None,
             growth: 0.25,
             method: None,
             is_non_obtuse: false,
@@ -121,11 +121,11 @@ impl MeshParams<'_> {
         // Not finer than the numbers are, inside or in input units.
         let least = outline::LEAST.max(RESOLVED * resolution / unit);
         Grading {
-            on_border: self.spacing / unit,
-            largest: self.largest.unwrap_or(self.spacing) / unit,
+            on_border: self.edge_length / unit,
+            largest: self.max_edge_length.unwrap_or(self.edge_length) / unit,
             growth: self.growth,
-            floor: (FLOOR * self.spacing / unit).max(least),
-            finest: (FINEST * self.spacing / unit).max(outline::LEAST),
+            floor: (FLOOR * self.edge_length / unit).max(least),
+            finest: (FINEST * self.edge_length / unit).max(outline::LEAST),
             least,
             max_vertices: MAX_POINTS / 4,
             wanted,
@@ -139,8 +139,8 @@ impl MeshParams<'_> {
     /// [`Error::InvalidParameter`] for a value outside its range.
     pub fn validate(&self) -> Result<(), Error> {
         let invalid = |name, value: f64, expected| Err(Error::InvalidParameter { name, value: value.to_string(), expected });
-        if !(self.spacing > 0.0 && self.spacing.is_finite()) {
-            return invalid("spacing", self.spacing, "positive and finite");
+        if !(self.edge_length > 0.0 && self.edge_length.is_finite()) {
+            return invalid("edge_length", self.edge_length, "positive and finite");
         }
         if !(self.growth > 0.0 && self.growth <= 1.0) {
             return invalid("growth", self.growth, "more than 0, and 1 at most");
@@ -149,9 +149,9 @@ impl MeshParams<'_> {
         if let Some(least) = self.min_angle_deg.filter(|least| !(0.0..=35.0).contains(least)) {
             return invalid("min_angle_deg", least, "0 or more, and 35 at most");
         }
-        match self.largest {
-            Some(largest) if largest < self.spacing || !largest.is_finite() => {
-                invalid("largest", largest, "the spacing at least, and finite")
+        match self.max_edge_length {
+            Some(largest) if largest < self.edge_length || !largest.is_finite() => {
+                invalid("max_edge_length", largest, "the edge length at least, and finite")
             }
             _ => Ok(()),
         }
@@ -258,7 +258,7 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
 fn meshed(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Result<(Mesh, Report), Error> {
     run.enter(Phase::Triangulate);
     let domain = polygon.domain();
-    let spacing = params.spacing / domain.restore_length(1.0);
+    let spacing = params.edge_length / domain.restore_length(1.0);
 
     // 1. What the mesh must keep; sharp corners are set apart, and the spacing is found for every place.
     let Graded { outline, caps, mut background, floor } = graded(polygon, params)?;

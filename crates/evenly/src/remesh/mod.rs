@@ -60,7 +60,7 @@ const SMALLEST_SIZE: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RemeshParams {
     /// How many vertices the mesh is to have, exactly; 3 at least, and 4 of a closed surface.
-    pub n_points: usize,
+    pub n_vertices: usize,
     /// By which rule they find their places; of `eliminate`, which makes points, they stay where the start, or given points, have them.
     pub method: LocalMethod,
     /// Edges at which the surface turns by more than this are kept if they stand out and are some spacings long, and tips if they can be; borders are in any case; in (0, 180).
@@ -81,7 +81,7 @@ pub struct RemeshParams {
 impl Default for RemeshParams {
     fn default() -> Self {
         Self {
-            n_points: 1000,
+            n_vertices: 1000,
             method: Self::usual_method(),
             features_deg: Some(40.0),
             max_deviation: Some(0.5),
@@ -106,8 +106,8 @@ impl RemeshParams {
     /// points that are not finite, or fewer than are wanted.
     pub fn validate(&self, surface: &Surface) -> Result<(), Error> {
         let invalid = |name, value: String, expected| Err(Error::InvalidParameter { name, value, expected });
-        if self.n_points < 3 || self.n_points > crate::MAX_POINTS {
-            return invalid("n_points", self.n_points.to_string(), "3 or more, and at most 40 million");
+        if self.n_vertices < 3 || self.n_vertices > crate::MAX_POINTS {
+            return invalid("n_vertices", self.n_vertices.to_string(), "3 or more, and at most 40 million");
         }
         if let Some(angle) = self.features_deg.filter(|&angle| !(angle > 0.0 && angle < 180.0)) {
             return invalid("features_deg", angle.to_string(), "more than 0, and less than 180");
@@ -116,8 +116,8 @@ impl RemeshParams {
             return invalid("max_deviation", length.to_string(), "positive and finite");
         }
         validate_sizes(surface, &self.sizes)?;
-        if !self.points.is_empty() && self.points.len() < self.n_points {
-            let value = format!("{} where {} vertices are wanted", self.points.len(), self.n_points);
+        if !self.points.is_empty() && self.points.len() < self.n_vertices {
+            let value = format!("{} where {} vertices are wanted", self.points.len(), self.n_vertices);
             return invalid("points", value, "at least as many, or none");
         }
         if let Some((k, p)) = self.points.iter().enumerate().find(|(_, p)| !p.iter().all(|x| x.is_finite())) {
@@ -205,7 +205,7 @@ impl Vertex {
 /// let vertices = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
 /// let triangles = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]];
 /// let surface = Surface::new(&TriangleMesh { vertices, triangles, attributes: Vec::new() })?;
-/// let params = RemeshParams { n_points: 500, ..RemeshParams::default() };
+/// let params = RemeshParams { n_vertices: 500, ..RemeshParams::default() };
 /// let (remeshed, report) = remesh(&surface, &params, &mut RunContext::default())?;
 /// assert_eq!(remeshed.mesh.vertices.len(), 500);
 /// assert!(surface_quality(&Surface::new(&remeshed.mesh)?).min_angle_deg > 25.0);
@@ -213,16 +213,16 @@ impl Vertex {
 /// ```
 pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) -> Result<(Remeshed, Report), Error> {
     params.validate(surface)?;
-    let mut report = Report::new(params.method.method().name(), params.n_points);
+    let mut report = Report::new(params.method.method().name(), params.n_vertices);
     let sizes = relative_sizes(surface, &params.sizes);
-    let long = Features::new(surface, params.features_deg, start::spacing(surface, params.n_points));
+    let long = Features::new(surface, params.features_deg, start::spacing(surface, params.n_vertices));
 
     // 1. Exactly so many vertices, with the surface's topology.
     run.enter(Phase::Triangulate);
     let inside: Vec<_> = params.points.iter().map(|&p| surface.frame.inward(p)).collect();
     let given = given::places(surface, &inside);
     let has_rows = matches!(params.method.local(), Local::Targets(_));
-    let n_points = params.n_points;
+    let n_points = params.n_vertices;
     let wanted = Wanted { surface, features: &long, sizes: &sizes, n_points, has_rows, given: &given, seed: params.seed };
     let all;
     let (features, started) = match start(wanted)? {
@@ -235,13 +235,13 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
         started => (&long, started),
     };
     let start = started.map_err(|least| Error::InvalidParameter {
-        name: "n_points",
-        value: format!("{} where no fewer than {least} are possible", params.n_points),
+        name: "n_vertices",
+        value: format!("{} where no fewer than {least} are possible", params.n_vertices),
         expected: "as many as the mesh's shape and its features need; without features fewer do",
     })?;
     report.triangulations = 1;
-    note_given(surface, &given, params.n_points, start.n_given, &mut report);
-    if let Some(warning) = coarse::warning(surface, &start, params.n_points) {
+    note_given(surface, &given, params.n_vertices, start.n_given, &mut report);
+    if let Some(warning) = coarse::warning(surface, &start, params.n_vertices) {
         run.warn(warning, &mut report);
     }
 

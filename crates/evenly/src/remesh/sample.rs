@@ -99,10 +99,17 @@ pub fn sample_surface(surface: &Surface, params: &SampleParams, run: &mut RunCon
                 return by_distance(n_points);
             }
             let (method, sizes) = (method.clone(), sizes.clone());
-            let params =
-                RemeshParams { n_points, method, sizes, features_deg: None, max_deviation: None, seed: *seed, ..RemeshParams::default() };
+            let params = RemeshParams {
+                n_vertices: n_points,
+                method,
+                sizes,
+                features_deg: None,
+                max_deviation: None,
+                seed: *seed,
+                ..RemeshParams::default()
+            };
             match remesh(surface, &params, run) {
-                Err(Error::InvalidParameter { name: "n_points", .. }) => by_distance(n_points),
+                Err(Error::InvalidParameter { name: "n_vertices", .. }) => by_distance(n_points),
                 made => made.map(|(remeshed, report)| (remeshed.places, report)),
             }
         }
