@@ -590,3 +590,22 @@ fn meshes_settle_along_creases_and_at_right_angled_corners() {
         assert!(quality.min_angle_deg > 45.5, "{seed}: {}", quality.min_angle_deg);
     }
 }
+
+/// Beside points of a crease with two triangles, or four, vertices are missing, or too many: moves alone leave right angles there.
+#[test]
+fn vertices_come_to_where_creases_have_too_few() {
+    let mut plate = cube(1);
+    plate.vertices.iter_mut().for_each(|[x, y, z]| (*x, *y, *z) = (3.0 * *x, 2.0 * *y, 0.3 * *z));
+    let vertices = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let square = TriangleMesh { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]], attributes: Vec::new() };
+    for (mesh, least) in [(plate, 39.0), (square, 44.5), (l_shape(), 44.5), (cone(96), 41.0)] {
+        let surface = Surface::new(&mesh).unwrap();
+        for seed in 0..3 {
+            let (made, report) = remeshed(&surface, 2000, seed);
+            let made = Surface::new(&made.mesh).unwrap();
+            let quality = surface_quality(&made);
+            assert_eq!((quality.obtuse_triangles, made.euler_characteristic()), (0, surface.euler_characteristic()), "{seed}");
+            assert!(quality.min_angle_deg > least, "{seed}: {}, {:?}", quality.min_angle_deg, report.outcome);
+        }
+    }
+}

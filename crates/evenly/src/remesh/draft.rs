@@ -239,9 +239,9 @@ impl<'a> Draft<'a> {
     }
 
     /// The same, of edges within triangles of the surface: hosts stay what they are.
-    pub fn legalize_within(&mut self, suspects: &mut Vec<u32>) {
+    pub fn legalize_within(&mut self, suspects: &mut Vec<u32>, show: impl FnMut(&Self, u32)) {
         let is_within = |draft: &Self, [h, t]: [u32; 2]| draft.hosts[h as usize / 3] == draft.hosts[t as usize / 3];
-        self.flip_all(suspects, is_within, |_, _| {});
+        self.flip_all(suspects, is_within, show);
     }
 
     fn flip_all(&mut self, suspects: &mut Vec<u32>, may_flip: impl Fn(&Self, [u32; 2]) -> bool, mut show: impl FnMut(&Self, u32)) {

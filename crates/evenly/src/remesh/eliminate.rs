@@ -34,7 +34,7 @@ pub(super) fn subdivide(draft: &mut Draft, spacing: f64, n_wanted: usize, seed: 
     all.for_each(|h| add(&mut queue, draft, h));
     let enough = CHOICE * n_wanted as f64;
     let most = MOST_TIMES * n_wanted.max(100) + draft.n_live;
-    let mut ring = Vec::new();
+    let (mut suspects, mut ring) = (Vec::new(), Vec::new());
     while let Some([a, b]) = queue.pop() {
         // Each edge is split once, and never comes again.
         let Some(h) = draft.find(a, b) else { continue };
@@ -43,6 +43,9 @@ pub(super) fn subdivide(draft: &mut Draft, spacing: f64, n_wanted: usize, seed: 
             break;
         }
         let m = draft.split(h, NEAREST_SPLIT + (1.0 - 2.0 * NEAREST_SPLIT) * unit(seed, [a, b]));
+        // On large triangles of the surface: thin ones would be split many times.
+        suspects.extend(draft.mesh.around(draft.outgoing[m as usize]).map(next));
+        draft.legalize_within(&mut suspects, |draft, h| add(&mut queue, draft, h));
         ring.clear();
         ring.extend(draft.mesh.around(draft.outgoing[m as usize]).flat_map(|h| [h, prev(h)]));
         ring.retain(|&h| draft.mesh.twin[h as usize] == BORDER || draft.mesh.origin[h as usize] == m);

@@ -46,14 +46,18 @@ impl LiveSurface<'_> {
     }
 
     /// Whether the edge between the first two corners may become that between the last two.
-    pub(super) fn can_flip(&self, [p, q, r, s]: [u32; 4]) -> bool {
-        if r == s || self.is_bond(p, q) || self.are_neighbours(r, s) {
+    pub(super) fn can_flip(&self, corners: [u32; 4]) -> bool {
+        if !self.can_join(corners) {
             return false;
         }
-        let corners = [p, q, r, s];
         let n_blocked = corners.map(|v| self.n_blocked(v)).into_iter().max();
         let normals = corners.map(|v| (!self.is_fixed(v)).then(|| self.normal(v)));
         Guard::after(n_blocked.unwrap_or(0)).allows_flip(corners.map(|v| self.at(v)), normals)
+    }
+
+    /// The same, whatever comes of the triangles.
+    pub(super) fn can_join(&self, [p, q, r, s]: [u32; 4]) -> bool {
+        r != s && !self.is_bond(p, q) && !self.are_neighbours(r, s)
     }
 
     fn are_neighbours(&self, a: u32, b: u32) -> bool {

@@ -8,7 +8,7 @@ use crate::triangulation::{BORDER, next, prev};
 /// A triangle in such a corner may be worse than its best division by so much, in degrees.
 const SPARE_DEG: f64 = 3.0;
 /// And is not obtuse, to rounding.
-const RIGHT_DEG: f64 = 90.0 + 1e-6;
+pub(super) const RIGHT_DEG: f64 = 90.0 + 1e-6;
 
 /// Triangles that miss the bounds on angles.
 #[derive(Debug, Default)]
@@ -100,6 +100,11 @@ impl LiveSurface<'_> {
 }
 
 impl Bounds {
+    /// Whether an angle can be divided so that all parts are within the bounds.
+    pub(super) fn divides(self, angle_deg: f64) -> bool {
+        self.best_division(angle_deg).is_none()
+    }
+
     /// Of an angle that no number of equal parts brings within the bounds, the smallest and the largest angle that triangles in its best division have; `None` for one
     /// that can be divided.
     fn best_division(self, angle_deg: f64) -> Option<[f64; 2]> {

@@ -109,6 +109,6 @@ fn put(draft: &mut Draft, t: u32, place: Place) -> u32 {
         [false, false, _] => return draft.mesh.origin[3 * t as usize + 1],
     };
     let mut suspects: Vec<u32> = draft.mesh.around(draft.outgoing[v as usize]).map(next).collect();
-    draft.legalize_within(&mut suspects);
+    draft.legalize_within(&mut suspects, |_, _| {});
     v
 }

@@ -37,6 +37,7 @@ mod shape;
 mod stars;
 mod start;
 mod targets;
+mod transplant;
 
 use std::collections::HashSet;
 
@@ -48,11 +49,15 @@ use self::settle::settle;
 use self::start::{Wanted, start};
 use crate::error::Error;
 use crate::methods::{Local, LocalMethod, PushPullParams};
-use crate::run::{Phase, Report, RunContext};
+use crate::run::{Outcome, Phase, Report, RunContext};
 use crate::surface::{Attribute, Features, Place, SIZE, Surface, TriangleMesh, weighted_area};
 use crate::sweep::Ground as _;
 use crate::triangulation::prev;
 
+/// So often runs with so few vertices begin again with another seed, where triangles miss what every mesh is to keep by no more than this, in degrees, all together.
+const MORE_TRIES: u64 = 3;
+const FEW: usize = 10_000;
+const LITTLE_DEG: f64 = 5.0;
 /// The smallest size over the largest, at least.
 const SMALLEST_SIZE: f64 = 1e-6;
 
@@ -248,17 +253,21 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
     // 2. They move until all is as it should be.
     let begun = report.clone();
     let had_rows = !start.rows.is_empty();
-    let mut live = settle(LiveSurface::new(surface, features, &sizes, start), params, run, &mut report)?;
+    let mut live = settle(LiveSurface::new(surface, features, &sizes, start), params, params.seed, run, &mut report)?;
 
-    // 3. On narrow faces rows are in each other's way: then once more without.
-    if had_rows && !run.is_cancelled() && live.misfit() > 0.0 {
-        let wanted = Wanted { features, has_rows: false, ..wanted };
-        if let Ok(start) = start::start(wanted)? {
-            let mut again = begun;
-            let other = settle(LiveSurface::new(surface, features, &sizes, start), params, run, &mut again)?;
-            if other.misfit() < live.misfit() {
-                (live, report) = (other, again);
-            }
+    // 3. On narrow faces rows are in each other's way: then without. Where little is missed another seed may help.
+    for again in u64::from(!had_rows)..=MORE_TRIES {
+        let misfit = live.misfit();
+        let is_done = misfit == 0.0 || matches!(report.outcome, Outcome::Converged | Outcome::Forced | Outcome::Cancelled);
+        if is_done || !has_rows || again > 0 && (misfit > LITTLE_DEG || n_points > FEW) {
+            break;
+        }
+        let seed = params.seed.wrapping_add(again);
+        let Ok(start) = start::start(Wanted { features, has_rows: again % 2 == 1, seed, ..wanted })? else { break };
+        let mut of_other = begun.clone();
+        let other = settle(LiveSurface::new(surface, features, &sizes, start), params, seed, run, &mut of_other)?;
+        if other.misfit() < misfit {
+            (live, report) = (other, of_other);
         }
     }
     Ok((finished(surface, &live), report))

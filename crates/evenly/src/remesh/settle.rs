@@ -1,6 +1,7 @@
 //! Vertices find their places.
 
 use super::RemeshParams;
+use super::ground::State;
 use super::live::LiveSurface;
 use super::polish::Bounds;
 use crate::error::Error;
@@ -27,6 +28,9 @@ const PATIENCE: usize = 5;
 /// A stage is in vain that leaves more than this part of the fewest restless vertices so far; on a surface with creases or boundaries so many of them end a run.
 const BETTER: f64 = 0.9;
 const IN_VAIN: usize = 6;
+/// In these stages vertices go from where a crease has too many to where it has too few.
+const FIRST_TRANSPLANT: usize = 1;
+const LAST_TRANSPLANT: usize = 10;
 /// So often vertices are put where the surface stands out.
 const ANCHORINGS: usize = 2;
 /// So often those are let go that keep others from their places.
@@ -38,6 +42,7 @@ const MOST_PASSES: usize = 1000;
 pub(super) fn settle<'a>(
     mut live: LiveSurface<'a>,
     params: &RemeshParams,
+    seed: u64,
     run: &mut RunContext,
     report: &mut Report,
 ) -> Result<LiveSurface<'a>, Error> {
@@ -51,7 +56,7 @@ pub(super) fn settle<'a>(
         live.loosen_rows();
     }
     let mut sweep = Sweep::new(live);
-    find_places(&mut sweep, &local, params.seed, run, report)?;
+    find_places(&mut sweep, &local, seed, run, report)?;
     // Where the surface stands out, a vertex stays, and the others find their places around it.
     for _ in 0..ANCHORINGS {
         let n_anchored = params.max_deviation.filter(|_| !run.is_cancelled()).map_or(0, |length| sweep.ground_mut().anchor(length));
@@ -59,7 +64,7 @@ pub(super) fn settle<'a>(
             break;
         }
         sweep.change_rule(report.iterations);
-        find_places(&mut sweep, &local, params.seed, run, report)?;
+        find_places(&mut sweep, &local, seed, run, report)?;
     }
     // What is fixed does not move, though it may be too near to others that are: off the creases it is let go.
     let targets = if let Local::Targets(targets) = &local { Some(*targets) } else { None };
@@ -70,7 +75,7 @@ pub(super) fn settle<'a>(
             break;
         }
         sweep.change_rule(report.iterations);
-        find_places(&mut sweep, &local, params.seed, run, report)?;
+        find_places(&mut sweep, &local, seed, run, report)?;
     }
     let mut live = sweep.into_mesh();
     let n_released = live.n_released;
@@ -92,7 +97,8 @@ pub(super) fn settle<'a>(
     {
         // Beside creases some triangles may still be obtuse, though they need not be.
         let bounds = Bounds::of_beta(beta);
-        live.polish(bounds, params.seed);
+        live.polish(bounds, seed);
+        live.square_up();
         conclude(&mut live, bounds, report);
     }
     if is_cut_short {
@@ -153,35 +159,53 @@ fn push_and_pull(
     // 2. In narrow folds a few may not come to rest: without the rule of areas, with longer moves, and after a push to the side they do.
     let capacity_tolerance = if rule.min_distance.or(rule.coverage_radius).is_some() { None } else { rule.capacity_tolerance };
     let rule = PushPull { capacity_tolerance, relaxation: STRETCH * rule.relaxation, ..rule };
-    let mut n_stages = 0;
-    let (mut fewest, mut n_in_vain) = (1.0, 0);
-    let bounds = targets.coverage_radius.zip(targets.min_distance).map(|(radius, distance)| Bounds::of_beta(radius / distance));
+    let has_creases = !sweep.ground_mut().bonds.is_empty();
+    let lengths = targets.coverage_radius.zip(targets.min_distance).filter(|_| has_creases);
+    let bounds = lengths.map(|(radius, distance)| Bounds::of_beta(radius / distance));
+    let mut best: Option<((f64, usize), State)> = None;
+    let (mut n_stages, mut fewest, mut n_in_vain) = (0, 1.0, 0);
     while ending == Ending::PassLimit && report.iterations < max_passes {
         ending = sweep.run(&rule, &Plan { max_passes: max_passes.min(report.iterations + STAGE), ..plan }, run, report);
-        if ending == Ending::PassLimit && report.iterations < max_passes {
-            let is_gentle = n_stages < GENTLE_STAGES;
-            let by = if is_gentle { KICK } else { HARD_KICK };
-            sweep.ground_mut().kick(by, !is_gentle, &mut Random::new(seed, n_stages as u64));
-            if n_stages >= PATIENCE {
-                sweep.ground_mut().release_restless();
-            }
+        if ending != Ending::PassLimit {
+            break;
         }
         // Creases, unlike a smooth surface, may keep some from rest for good; where these are but in corners that force it, nothing is left to do.
-        let restless = report.stable_share.last().map_or(0.0, |share| 1.0 - share);
-        let is_better = restless < BETTER * fewest;
-        n_in_vain = if is_better { 0 } else { n_in_vain + 1 };
-        fewest = if is_better { restless } else { fewest };
         let live = sweep.ground_mut();
-        let has_creases = ending == Ending::PassLimit && !live.bonds.is_empty();
-        let is_at_end = n_in_vain >= IN_VAIN || bounds.is_some_and(|bounds| live.missed(bounds).n_others == 0);
-        if has_creases && is_at_end {
+        if let Some(bounds) = bounds {
+            let missed = (live.misfit(), live.missed(bounds).n_others);
+            if best.as_ref().is_none_or(|&(least, _)| missed < least) {
+                best = Some((missed, live.state()));
+            }
+            if missed.1 == 0 {
+                break;
+            }
+        }
+        let restless = report.stable_share.last().map_or(0.0, |share| 1.0 - share);
+        if restless < BETTER * fewest {
+            (fewest, n_in_vain) = (restless, 0);
+        } else {
+            n_in_vain += 1;
+        }
+        if has_creases && n_in_vain >= IN_VAIN || report.iterations >= max_passes {
             break;
+        }
+        let is_gentle = n_stages < GENTLE_STAGES;
+        live.kick(if is_gentle { KICK } else { HARD_KICK }, !is_gentle, &mut Random::new(seed, n_stages as u64));
+        if n_stages >= PATIENCE {
+            live.release_restless();
+        }
+        let has_moved = |bounds| (FIRST_TRANSPLANT..LAST_TRANSPLANT).contains(&n_stages) && live.transplant(bounds) > 0;
+        if bounds.is_some_and(has_moved) {
+            (fewest, n_in_vain) = (1.0, 0);
         }
         n_stages += 1;
     }
     report.outcome = outcome(ending, Outcome::IterationLimit);
     if report.outcome == Outcome::IterationLimit {
-        sweep.return_to_best()?;
+        match best {
+            Some((_, state)) => sweep.ground_mut().restore(state)?,
+            None => sweep.return_to_best()?,
+        }
     }
     Ok(())
 }

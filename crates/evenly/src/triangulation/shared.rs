@@ -116,6 +116,43 @@ impl<const N: usize> SharedMesh<N> {
         }
     }
 
+    /// Makes one triangle of the three around a vertex, and returns it with the two that are no part of the mesh then.
+    pub fn unite(&self, v: u32) -> [u32; 3] {
+        let first = self.outgoing(v);
+        let second = self.turn(first).1;
+        let third = self.turn(second).1;
+        debug_assert_eq!(self.turn(third).1, first);
+        let rims = [first, second, third].map(|h| (self.origin(next(h)), self.twin(next(h))));
+        let triangles = [first / 3, second / 3, third / 3];
+        self.replace(triangles, rims.map(|(corner, _)| corner), &[(triangles[0], rims)]);
+        triangles
+    }
+
+    /// Makes three triangles around a vertex of the first one, and of two that are no part of the mesh.
+    pub fn divide(&self, v: u32, triangles: [u32; 3]) {
+        let first = 3 * triangles[0];
+        let (corners, across) = ([0, 1, 2].map(|k| self.origin(first + k)), [0, 1, 2].map(|k| self.twin(first + k)));
+        // (a b v): its second edge meets the next triangle's third.
+        let made = [0, 1, 2].map(|k| {
+            let [after, before] = [triangles[(k + 1) % 3], triangles[(k + 2) % 3]];
+            (triangles[k], [(corners[k], across[k]), (corners[(k + 1) % 3], 3 * after + 2), (v, 3 * before + 1)])
+        });
+        self.replace(triangles, corners, &made);
+    }
+
+    /// Makes triangles in the place of others; walks around the corners that are on a border still begin there.
+    fn replace(&self, old: [u32; 3], corners: [u32; 3], made: &[(u32, [(u32, u32); 3])]) {
+        let starts = corners.map(|v| self.outgoing(v));
+        let are_on_border = starts.map(|h| self.twin(h) == BORDER);
+        made.iter().for_each(|&(t, rims)| self.make_triangle(t, rims));
+        for ((v, start), _) in corners.into_iter().zip(starts).zip(are_on_border).filter(|&(_, is_on_border)| is_on_border) {
+            let rims = || made.iter().flat_map(|(t, rims)| (3 * t..).zip(*rims));
+            let moved = || rims().find(|&(_, (origin, twin))| origin == v && twin == BORDER).map(|(h, _)| h);
+            let start = if old.contains(&(start / 3)) { moved() } else { Some(start) };
+            start.into_iter().for_each(|h| self.vertices[v as usize].outgoing.store(h, Relaxed));
+        }
+    }
+
     /// A half-edge that leaves `v`; on a border that which lies there, the first counter-clockwise.
     #[inline]
     pub fn outgoing(&self, v: u32) -> u32 {

@@ -114,14 +114,9 @@ impl LiveMesh {
 
     /// Makes one triangle of the three around `v`.
     fn unite(&self, v: u32, work: &mut Transplant) {
-        let first = self.mesh.outgoing(v);
-        let second = self.mesh.turn(first).1;
-        let third = self.mesh.turn(second).1;
-        debug_assert_eq!(self.mesh.turn(third).1, first);
-        let rims = [first, second, third].map(|h| (self.mesh.origin(next(h)), self.mesh.twin(next(h))));
-        self.mesh.make_triangle(first / 3, rims);
-        work.changed.extend([first / 3, second / 3, third / 3]);
-        work.free.extend([second / 3, third / 3]);
+        let triangles = self.mesh.unite(v);
+        work.changed.extend(triangles);
+        work.free.extend(&triangles[1..]);
     }
 
     /// Puts `v` into the triangle at a place, and returns one of the three that come of it.
@@ -132,16 +127,10 @@ impl LiveMesh {
             return near;
         };
         self.mesh.set_position(v, place);
-        let corners = self.corners(triangle);
-        let across = [0, 1, 2].map(|k| self.mesh.twin(3 * triangle + k));
         // Taken out before, so there are two.
         let (second, third) = (work.free.pop().unwrap_or(triangle), work.free.pop().unwrap_or(triangle));
         let slots = [triangle, second, third];
-        for k in 0..3 {
-            // (a b v): its second edge meets the next triangle's third.
-            let rims = [(corners[k], across[k]), (corners[(k + 1) % 3], 3 * slots[(k + 1) % 3] + 2), (v, 3 * slots[(k + 2) % 3] + 1)];
-            self.mesh.make_triangle(slots[k], rims);
-        }
+        self.mesh.divide(v, slots);
         work.changed.extend(slots);
         work.suspects.extend(slots.map(|slot| 3 * slot));
         triangle
