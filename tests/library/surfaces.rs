@@ -609,3 +609,16 @@ fn vertices_come_to_where_creases_have_too_few() {
         }
     }
 }
+
+/// A triangle and the same from behind, on a third: edges of the start would join the same two vertices.
+#[test]
+fn a_flap_that_lies_on_itself_is_remeshed() {
+    let vertices = vec![[0.4, 0.4, 1.0], [0.4, 0.4, 0.9], [0.65, 0.35, 0.7], [0.4, 0.4, 0.4], [0.3, 0.65, 0.1]];
+    let mesh = TriangleMesh { vertices, triangles: vec![[0, 1, 2], [2, 3, 0], [2, 3, 4]], attributes: Vec::new() };
+    let surface = Surface::repaired(&mesh).unwrap();
+    for n in [20, 60, 137] {
+        let params = RemeshParams { n_vertices: n, ..RemeshParams::default() };
+        let (made, _) = remesh(&surface, &params, &mut RunContext::default()).unwrap();
+        assert_eq!(Surface::new(&made.mesh).unwrap().euler_characteristic(), surface.euler_characteristic(), "{n}");
+    }
+}

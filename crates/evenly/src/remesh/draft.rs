@@ -149,6 +149,28 @@ impl<'a> Draft<'a> {
         m
     }
 
+    /// Splits edges until no two join the same vertices: a flat part whose two sides share their corners has such as soon as its rim has new ones.
+    pub fn split_doubles(&mut self) {
+        let mut targets = Vec::new();
+        for v in 0..self.vertices.len() as u32 {
+            while let Some(double) = self.double_of(v, &mut targets) {
+                self.split(double, 0.5);
+            }
+        }
+    }
+
+    /// A half-edge that leaves a vertex for where another one goes as well.
+    fn double_of(&self, v: u32, targets: &mut Vec<u32>) -> Option<u32> {
+        targets.clear();
+        let around = (self.is_live(v)).then(|| self.mesh.around(self.outgoing[v as usize]));
+        around.into_iter().flatten().find(|&h| {
+            let target = self.mesh.target(h);
+            let is_double = targets.contains(&target);
+            targets.push(target);
+            is_double
+        })
+    }
+
     /// Puts a new vertex into a triangle, and returns it. Only while triangles have hosts.
     pub fn insert(&mut self, t: u32, place: Place) -> u32 {
         let (m, first) = (self.add(place, false), 3 * t);

@@ -66,6 +66,8 @@ pub(super) struct LiveSurface<'a> {
     rows: Vec<u32>,
     /// Triangles that the input's corners force to miss the targets, once the run has ended.
     pub(super) forced: Vec<usize>,
+    /// How many others miss them then.
+    pub(super) n_missed: usize,
     /// Which vertices are on creases and boundaries.
     is_bound: Vec<bool>,
     /// How often a vertex' moves were blocked.
@@ -83,6 +85,7 @@ impl<'a> LiveSurface<'a> {
         bonds.iter().flatten().for_each(|&v| is_bound[v as usize] = true);
         let mut live = Self {
             forced: Vec::new(),
+            n_missed: 0,
             is_bound,
             surface,
             features,

@@ -10,6 +10,7 @@
 //!   surface's triangles as vertices, and all others are collapsed.
 //! - Points land on the nearest place to which a walk along the surface leads, never on another sheet; a move that would turn a triangle away from the surface is not made.
 //! - Creases and borders are kept: the points along them come first, and stay.
+//! - Vertices go from where a crease has too many beside it to where it has too few, and runs that miss little begin again with another seed.
 //! - Where the wanted spacing varies it counts a triangle at a time, so that the bounds on angles hold as they do where it is uniform.
 //!
 //! Cost: O(n) passes of about a microsecond a visit, some 60 visits per point. The start, a fifth of the time, is on one thread. It does not promise that the targets are reached, but the
@@ -54,10 +55,13 @@ use crate::surface::{Attribute, Features, Place, SIZE, Surface, TriangleMesh, we
 use crate::sweep::Ground as _;
 use crate::triangulation::prev;
 
-/// So often runs with so few vertices begin again with another seed, where triangles miss what every mesh is to keep by no more than this, in degrees, all together.
+/// So often runs with so few vertices begin again with another seed, where triangles miss what every mesh is to keep by no more than this, in degrees, all together, and the targets at no more than this,
+/// and at one more for so many vertices.
 const MORE_TRIES: u64 = 3;
 const FEW: usize = 10_000;
 const LITTLE_DEG: f64 = 5.0;
+const MISSED: usize = 40;
+const PART: usize = 50;
 /// The smallest size over the largest, at least.
 const SMALLEST_SIZE: f64 = 1e-6;
 
@@ -257,16 +261,20 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
 
     // 3. On narrow faces rows are in each other's way: then without. Where little is missed another seed may help.
     for again in u64::from(!had_rows)..=MORE_TRIES {
-        let misfit = live.misfit();
-        let is_done = misfit == 0.0 || matches!(report.outcome, Outcome::Converged | Outcome::Forced | Outcome::Cancelled);
-        if is_done || !has_rows || again > 0 && (misfit > LITTLE_DEG || n_points > FEW) {
+        let missed = (live.misfit(), live.n_missed);
+        let is_hopeful = n_points <= FEW && missed.0 <= LITTLE_DEG && missed.1 <= MISSED + n_points / PART;
+        let is_wanted = if again == 0 { missed.0 > 0.0 } else { is_hopeful && report.outcome == Outcome::IterationLimit };
+        if run.is_cancelled() || !has_rows || matches!(report.outcome, Outcome::Converged | Outcome::Forced) {
             break;
+        }
+        if !is_wanted {
+            continue;
         }
         let seed = params.seed.wrapping_add(again);
         let Ok(start) = start::start(Wanted { features, has_rows: again % 2 == 1, seed, ..wanted })? else { break };
         let mut of_other = begun.clone();
         let other = settle(LiveSurface::new(surface, features, &sizes, start), params, seed, run, &mut of_other)?;
-        if other.misfit() < misfit {
+        if (other.misfit(), other.n_missed) < missed {
             (live, report) = (other, of_other);
         }
     }

@@ -123,7 +123,7 @@ fn conclude(live: &mut LiveSurface, bounds: Bounds, report: &mut Report) {
             missed.n_corners
         ));
     }
-    live.forced = missed.forced;
+    (live.forced, live.n_missed) = (missed.forced, missed.n_others);
 }
 
 fn find_places(sweep: &mut Sweep<LiveSurface>, local: &Local, seed: u64, run: &mut RunContext, report: &mut Report) -> Result<(), Error> {

@@ -66,6 +66,7 @@ fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error>
         Ok(gaps) => gaps,
         Err(least) => return Ok(Err(least)),
     };
+    draft.split_doubles();
     features.tips.iter().for_each(|&v| draft.pin(v));
     // 2. Vertices to choose from.
     if given.is_empty() {
