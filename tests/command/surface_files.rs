@@ -141,7 +141,7 @@ fn bad_input_is_one_clear_error() {
         ("remesh nothing.obj -n 100 -o m.ply", "nothing.obj"),
         ("remesh torus.off -o m.ply", "required"),
         ("remesh torus.off -n 100 --edge-length 1 -o m.ply", "cannot be used"),
-        ("remesh torus.off -n 2 -o m.ply", "--n-points is 2"),
+        ("remesh torus.off -n 2 -o m.ply", "--n-vertices is 2"),
         ("remesh torus.off -n 300 --ascii -o m.obj", "--ascii is for .ply"),
         ("remesh torus.off -n 300 --weld 0 -o m.obj", "--weld is 0"),
         ("remesh torus.off -n 100 --density linear:w,3 -o m.ply", "linear:axis,ratio"),

@@ -425,7 +425,7 @@ fn what_lies_outside_is_refused() {
     assert!(refused(&MeshParams { fixed: vec![[9.0, 9.0]], ..MeshParams::new(0.1) }).contains("does not hold"));
     assert!(refused(&MeshParams { lines: vec![vec![[1.0, 0.5], [0.5, 1.0]]], ..MeshParams::new(0.1) }).contains("does not hold"));
     assert!(refused(&MeshParams::new(1e-300)).contains("too many"));
-    assert!(refused(&MeshParams::new(0.0)).contains("spacing"));
+    assert!(refused(&MeshParams::new(0.0)).contains("edge_length"));
     assert!(refused(&MeshParams::new(1e-7)).contains("too many"));
 }
 

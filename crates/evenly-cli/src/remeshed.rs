@@ -278,7 +278,7 @@ fn sizing_of(words: &str) -> anyhow::Result<SurfaceSizing> {
     })
 }
 
-/// Wishes in the command line's words, as `--n-points=1000`.
+/// Wishes in the command line's words, as `--n-vertices=1000`.
 ///
 /// # Errors
 /// What the command line says of them.
