@@ -73,19 +73,26 @@ def test_meshes_follow_sizes_densities_and_methods():
 @pytest.mark.parametrize(
     ("message", "arguments"),
     [
-        ("either spacing or n_triangles", {}),
-        ("either spacing or n_triangles", {"spacing": 0.1, "n_triangles": 100}),
-        ("spacing is -1", {"spacing": -1.0}),
-        ("min_angle is 50", {"spacing": 0.1, "min_angle": 50.0}),
-        ("beta is for method well-spaced or opt-beta", {"spacing": 0.1, "beta": 0.7}),
-        ("length at", {"spacing": 0.1, "sizes": [(0.5, 0.5, 0)]}),
-        ("does not hold the fixed point", {"spacing": 0.1, "fixed": [(3, 3)]}),
-        (r"line 0 must have the shape", {"spacing": 0.1, "lines": [(1, 2, 3)]}),
+        ("either edge_length or n_triangles", {}),
+        ("either edge_length or n_triangles", {"edge_length": 0.1, "n_triangles": 100}),
+        ("edge_length is -1", {"edge_length": -1.0}),
+        ("min_angle is 50", {"edge_length": 0.1, "min_angle": 50.0}),
+        ("beta is for method well-spaced or opt-beta", {"edge_length": 0.1, "beta": 0.7}),
+        ("length at", {"edge_length": 0.1, "sizes": [(0.5, 0.5, 0)]}),
+        ("does not hold the fixed point", {"edge_length": 0.1, "fixed": [(3, 3)]}),
+        (r"line 0 must have the shape", {"edge_length": 0.1, "lines": [(1, 2, 3)]}),
     ],
 )
 def test_bad_meshes_are_value_errors(message, arguments):
     with pytest.raises(ValueError, match=message):
         evenly.mesh(SQUARE, **arguments)
+
+
+def test_old_names_are_answered_with_the_new_ones():
+    with pytest.raises(TypeError, match="edge_length"):
+        evenly.mesh(SQUARE, spacing=0.1)
+    with pytest.raises(TypeError, match="edge_length"):
+        evenly.remesh(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), spacing=0.1)
 
 
 def test_dots_follow_the_picture():

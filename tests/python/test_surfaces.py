@@ -97,7 +97,7 @@ def test_points_lie_on_the_surface():
     ("message", "shape", "arguments"),
     [
         ("missing", OCTAHEDRON, {}),
-        ("either", OCTAHEDRON, {"n": 10, "spacing": 0.1}),
+        ("either", OCTAHEDRON, {"n": 10, "edge_length": 0.1}),
         ("row 1", ([(0, 0, 0), (1, np.nan, 0), (0, 1, 0)], [(0, 1, 2)]), {"n": 10}),
         ("triangles", (OCTAHEDRON[0], [(0, 1)]), {"n": 10}),
         ("n is", OCTAHEDRON, {"n": 3}),

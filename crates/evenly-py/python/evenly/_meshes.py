@@ -14,7 +14,7 @@ from evenly import _evenly
 from evenly._arrays import Floats, Frozen, frozen, rows
 from evenly._densities import Density, density_of
 from evenly._jobs import Callback, run, threads_of, told, words
-from evenly._methods import OnMeshes, OptimizerOptions, option_words
+from evenly._methods import OnMeshes, OptimizerOptions, option_words, refuse_renamed
 from evenly._seeds import Seed, number
 from evenly._spaces import Polygon
 
@@ -204,6 +204,7 @@ def mesh(
     >>> mesh.quality.obtuse_triangles, mesh.quality.min_angle_deg > 40
     (0, True)
     """
+    refuse_renamed(options, {"spacing": "edge_length", "max_spacing": "max_edge_length"})
     if (edge_length is None) == (n_triangles is None):
         raise ValueError("give either edge_length or n_triangles")
     parts = _named(regions)

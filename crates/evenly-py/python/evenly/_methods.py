@@ -132,6 +132,13 @@ def option_words(options: Mapping[str, object]) -> list[str]:
     return [each for name, value in options.items() for each in word(name, value, _kinds()[name])]
 
 
+def refuse_renamed(options: Mapping[str, object], names: Mapping[str, str]) -> None:
+    """Refuse keywords that have another name now."""
+    for old, new in names.items():
+        if old in options:
+            raise TypeError(f"{old!r} is called {new!r} now")
+
+
 def options_of(method: str, options: Mapping[str, object]) -> dict[str, object]:
     """Return those options that a method takes."""
     taken = _registry()[method].parameters if method in _registry() else {}

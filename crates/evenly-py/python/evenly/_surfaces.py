@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._jobs import Callback, run, threads_of, told, words
-from evenly._methods import OnMeshes, OnSurfaces, OptimizerOptions, option_words
+from evenly._methods import OnMeshes, OnSurfaces, OptimizerOptions, option_words, refuse_renamed
 from evenly._seeds import Seed, number
 from evenly._shapes import native
 
@@ -265,6 +265,7 @@ def remesh(
     (500, True)
     """
     has_sizes = density is not None and not isinstance(density, str)
+    refuse_renamed(options, {"spacing": "edge_length"})
     if n is not None and edge_length is not None:
         raise ValueError("give either n or edge_length")
     begin = None if points is None else rows(points, "points", 3)
