@@ -10,6 +10,7 @@ mod shapes;
 mod solids;
 
 mod comparators;
+mod creases;
 mod density;
 mod details;
 mod fixed;

@@ -165,7 +165,7 @@ def mesh(
     max_edge_length : float, optional
         The longest edges wanted, where they grow.
     sizes : array_like of shape (k, 3), optional
-        Wanted lengths of edges at points, as x, y and length, where they are to be shorter than `edge_length`; they grow from there by `grade`, or 0.25, a length.
+        Wanted lengths of edges at points, as x, y and length, where they are to be shorter than `edge_length`; they grow from there by `grade`, or 0.25, per unit of distance.
     density : optional
         How many vertices are wanted where, in the polygon's frame; see `generate`.
     min_angle : float, optional

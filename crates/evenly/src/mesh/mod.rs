@@ -66,11 +66,11 @@ const MOST_TRIES: usize = 8;
 /// What [`mesh`] can be told.
 #[derive(Clone, Serialize)]
 pub struct MeshParams<'a> {
-    /// The wanted length of edges, in input units; positive. They are shorter where the border is detailed or the domain narrow.
+    /// The wanted length of edges, in input units; positive. They are shorter where the boundary is detailed or the domain narrow.
     pub edge_length: f64,
-    /// The longest edges wanted inside, in input units; `None` for `edge_length`, which edges on the border never exceed by much. More lets triangles grow away from it.
+    /// The longest edges wanted inside, in input units; `None` for `edge_length`, which edges on the boundary never exceed by much. More lets triangles grow away from it.
     pub max_edge_length: Option<f64>,
-    /// By how much edges may grow a length, away from where it is shorter; in (0, 1]. Less makes more triangles, and better ones; where no triangle shall be obtuse, it may be made less.
+    /// How fast edges may grow away from where they are short, in length per unit of distance; in (0, 1]. Less makes more triangles, and better ones; where no triangle shall be obtuse, it may be made less.
     pub growth: f64,
     /// How points find their places; `None` for Push-Pull to targets that suit the demands. Those on the border and on lines move along their segment, and corners stay, whatever the
     /// method. Where triangles are bad then, points are added or removed and the method goes on there; the last bad ones are polished.
@@ -85,7 +85,7 @@ pub struct MeshParams<'a> {
     pub lines: Vec<Vec<[f64; 2]>>,
     /// Parts of the domain that are kept apart.
     pub regions: Vec<MeshRegion>,
-    /// A spacing for each place, both in input units, where it is to be less than `edge_length` or `max_edge_length`.
+    /// A length of edges for each place, both in input units, where it is to be less than `edge_length` or `max_edge_length`.
     #[serde(skip)]
     pub wanted: Option<&'a (dyn Fn([f64; 2]) -> f64 + Sync)>,
     /// The points depend on it.
@@ -93,7 +93,7 @@ pub struct MeshParams<'a> {
 }
 
 impl MeshParams<'_> {
-    /// Edges of one length everywhere, but where the border asks for less.
+    /// Edges of one length everywhere, but where the boundary asks for less.
     pub fn new(edge_length: f64) -> Self {
         Self {
             edge_length,

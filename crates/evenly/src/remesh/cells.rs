@@ -5,7 +5,6 @@
 
 use super::live::LiveSurface;
 use crate::sweep::{Cells, Ground as _};
-use crate::triangulation::{BORDER, next};
 
 /// Vertices in a cell.
 const RUN: usize = 128;
@@ -73,21 +72,6 @@ impl LiveSurface<'_> {
                 });
             }
             ring = ring.end..reached.len();
-        }
-    }
-
-    fn each_neighbour(&self, v: u32, mut meet: impl FnMut(u32)) {
-        let first = self.mesh.outgoing(v);
-        let (mut vertex, mut half_edge) = (self.mesh.origin(next(first)), first);
-        loop {
-            meet(vertex);
-            if half_edge == BORDER {
-                return;
-            }
-            (vertex, half_edge) = self.mesh.turn(half_edge);
-            if half_edge == first {
-                return;
-            }
         }
     }
 }

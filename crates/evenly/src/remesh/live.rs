@@ -216,6 +216,28 @@ impl<'a> LiveSurface<'a> {
         let _ = self.walk(v, Territory::EVERYTHING, ring);
     }
 
+    /// Shows the neighbours of `v` in the order of a walk.
+    pub(super) fn each_neighbour(&self, v: u32, mut show: impl FnMut(u32)) {
+        let first = self.mesh.outgoing(v);
+        let (mut vertex, mut half_edge) = (self.mesh.origin(next(first)), first);
+        loop {
+            show(vertex);
+            if half_edge == BORDER {
+                return;
+            }
+            (vertex, half_edge) = self.mesh.turn(half_edge);
+            if half_edge == first {
+                return;
+            }
+        }
+    }
+
+    pub(super) fn neighbours(&self, v: u32) -> Vec<u32> {
+        let mut neighbours = Vec::new();
+        self.each_neighbour(v, |other| neighbours.push(other));
+        neighbours
+    }
+
     pub(super) fn soil(&self, v: u32) {
         self.mesh.set_dirty(v, true);
     }

@@ -55,10 +55,10 @@ use crate::surface::{Attribute, Features, Place, SIZE, Surface, TriangleMesh, we
 use crate::sweep::Ground as _;
 use crate::triangulation::prev;
 
-/// So often runs with so few vertices begin again with another seed, where triangles miss what every mesh is to keep by no more than this, in degrees, all together, and the targets at no more than this,
-/// and at one more for so many vertices.
+/// So often runs begin again with another seed that have so few vertices, and miss little.
 const MORE_TRIES: u64 = 3;
 const FEW: usize = 10_000;
+/// That is: so many degrees, all triangles together, of what every mesh is to keep; the targets at so many triangles, and at one more per so many vertices.
 const LITTLE_DEG: f64 = 5.0;
 const MISSED: usize = 40;
 const PART: usize = 50;
@@ -260,14 +260,13 @@ pub fn remesh(surface: &Surface, params: &RemeshParams, run: &mut RunContext) ->
     let mut live = settle(LiveSurface::new(surface, features, &sizes, start), params, params.seed, run, &mut report)?;
 
     // 3. On narrow faces rows are in each other's way: then without. Where little is missed another seed may help.
-    for again in u64::from(!had_rows)..=MORE_TRIES {
-        let missed = (live.misfit(), live.n_missed);
-        let is_hopeful = n_points <= FEW && missed.0 <= LITTLE_DEG && missed.1 <= MISSED + n_points / PART;
-        let is_wanted = if again == 0 { missed.0 > 0.0 } else { is_hopeful && report.outcome == Outcome::IterationLimit };
-        if run.is_cancelled() || !has_rows || matches!(report.outcome, Outcome::Converged | Outcome::Forced) {
+    for again in 0..=MORE_TRIES {
+        if !has_rows || run.is_cancelled() || report.outcome != Outcome::IterationLimit {
             break;
         }
-        if !is_wanted {
+        let missed = (live.misfit(), live.n_missed);
+        let is_little = n_points <= FEW && missed.0 <= LITTLE_DEG && missed.1 <= MISSED + n_points / PART;
+        if !(if again == 0 { had_rows && missed.0 > 0.0 } else { is_little }) {
             continue;
         }
         let seed = params.seed.wrapping_add(again);

@@ -2,8 +2,10 @@
 
 use glam::DVec3;
 
+use super::forced::RIGHT_DEG;
 use super::ground::SurfaceBuffer;
 use super::live::{LiveSurface, Vertex};
+use crate::geometry::triangle::Shape;
 use crate::points::Random;
 use crate::sweep::Ground;
 use crate::triangulation::{BORDER, Spoke};
@@ -17,6 +19,10 @@ const ROUNDS: usize = 30;
 const STEP: f64 = 0.2;
 const HALVINGS: usize = 5;
 const DIRECTIONS: usize = 6;
+
+/// A crease is straight whose sine is below this, and an angle right but for a little whose cosine is.
+const STRAIGHT: f64 = 1e-9;
+const LITTLE_OFF: f64 = 0.02;
 
 /// Angles that are off by less than this, in degrees, are within their bounds.
 const ROUNDING_DEG: f64 = 1e-6;
@@ -124,6 +130,36 @@ impl LiveSurface<'_> {
             step *= 0.5;
         }
         has_moved
+    }
+
+    /// Makes both angles right where two triangles share a half turn, and one of them is obtuse by a little: there is nothing better.
+    pub(super) fn square_up(&self) {
+        let (mut ring, mut moving) = (Vec::new(), Vec::new());
+        for v in (0..self.n_points() as u32).filter(|&v| self.is_bound(v)) {
+            self.walk_alone(v, &mut ring);
+            for sector in self.sectors(v, &ring) {
+                let [before, middle, after] = sector[..] else { continue };
+                let along = (after.way - before.way).normalize_or_zero();
+                let off = middle.way.dot(along);
+                let is_straight = before.way.cross(after.way).length() < STRAIGHT * before.way.length() * after.way.length();
+                if !is_straight || self.is_fixed(middle.vertex) || off.abs() > LITTLE_OFF * middle.way.length() {
+                    continue;
+                }
+                let w = middle.vertex;
+                self.walk_alone(w, &mut moving);
+                let (from, n_before) = (self.vertex(w), self.n_obtuse_around(w, &moving));
+                if n_before > 0 && self.step(w, -off * along, &moving) && self.n_obtuse_around(w, &moving) >= n_before {
+                    self.mesh.set_place(w, from.numbers());
+                }
+            }
+        }
+    }
+
+    fn n_obtuse_around(&self, v: u32, ring: &[Spoke<DVec3>]) -> usize {
+        let after = |k: usize| &ring[if k + 1 == ring.len() { 0 } else { k + 1 }];
+        let corners = |k: usize| [v, ring[k].vertex, after(k).vertex].map(|v| self.at(v));
+        let is_obtuse = |&k: &usize| Shape::of_space(corners(k)).extreme_angles_deg()[1] > RIGHT_DEG;
+        (0..ring.len()).filter(|&k| ring[k].half_edge != BORDER).filter(is_obtuse).count()
     }
 
     fn flip_if_better(&self, h: u32, bounds: Bounds) {

@@ -1,5 +1,7 @@
 //! Vertices find their places.
 
+use std::ops::Range;
+
 use super::RemeshParams;
 use super::ground::State;
 use super::live::LiveSurface;
@@ -29,8 +31,7 @@ const PATIENCE: usize = 5;
 const BETTER: f64 = 0.9;
 const IN_VAIN: usize = 6;
 /// In these stages vertices go from where a crease has too many to where it has too few.
-const FIRST_TRANSPLANT: usize = 1;
-const LAST_TRANSPLANT: usize = 10;
+const TRANSPLANTS: Range<usize> = 1..10;
 /// So often vertices are put where the surface stands out.
 const ANCHORINGS: usize = 2;
 /// So often those are let go that keep others from their places.
@@ -38,7 +39,7 @@ const RELEASES: usize = 3;
 /// Passes at most, if none are given; as many again after each time.
 const MOST_PASSES: usize = 1000;
 
-/// Moves vertices by the wanted method, and says in the report how that has ended.
+/// Moves vertices by the wanted method, with a seed in place of the parameters', and says in the report how that has ended.
 pub(super) fn settle<'a>(
     mut live: LiveSurface<'a>,
     params: &RemeshParams,
@@ -194,7 +195,7 @@ fn push_and_pull(
         if n_stages >= PATIENCE {
             live.release_restless();
         }
-        let has_moved = |bounds| (FIRST_TRANSPLANT..LAST_TRANSPLANT).contains(&n_stages) && live.transplant(bounds) > 0;
+        let has_moved = |bounds| TRANSPLANTS.contains(&n_stages) && live.transplant(bounds) > 0;
         if bounds.is_some_and(has_moved) {
             (fewest, n_in_vain) = (1.0, 0);
         }

@@ -5,23 +5,19 @@
 
 use glam::{DVec2, DVec3};
 
-use super::forced::RIGHT_DEG;
-use super::live::{LiveSurface, Vertex};
+use super::live::LiveSurface;
 use super::polish::Bounds;
-use crate::geometry::triangle::Shape;
 use crate::sweep::Ground as _;
 use crate::triangulation::{BORDER, Spoke, next, prev};
 
-/// A vertex inside with so few neighbours is one too many.
+/// A vertex inside with so few neighbours is one too many, where the angles around it sum to this in degrees: where they sum to less it makes the shape.
 const FEW_NEIGHBOURS: usize = 4;
+const FLAT_DEG: f64 = 300.0;
 /// So many are put in at once, or one in so many: each shakes what is around.
 const MOST: usize = 2;
 const PART: usize = 100;
 /// So many are looked at for each that is missing: some cannot be taken out.
-const SPARE: usize = 3;
-/// A crease is straight whose sine is below this, and an angle right but for a little whose cosine is.
-const STRAIGHT: f64 = 1e-9;
-const LITTLE_OFF: f64 = 0.02;
+const CHOICE: usize = 3;
 /// Angles that are off by less than this, in degrees, are within their bounds.
 const SPARE_DEG: f64 = 0.5;
 
@@ -41,139 +37,121 @@ impl LiveSurface<'_> {
         let most = MOST.max(self.n_points() / PART);
         let mut spared = spared.into_iter();
         let mut n_put = 0;
-        let mut touched = Vec::new();
+        let mut is_touched = vec![false; self.n_points()];
         for h in wanting {
             let corners = [h, next(h), prev(h)].map(|h| self.mesh.origin(h));
             let Some(&beside) = corners.iter().find(|&&v| !self.is_fixed(v)) else { continue };
-            if corners.iter().any(|v| touched.contains(v)) {
+            if corners.iter().any(|&v| is_touched[v as usize]) {
                 continue;
             }
-            let Some(v) = spared.find(|&v| !touched.contains(&v) && !corners.contains(&v) && !self.is_beside(v, &corners)) else { break };
+            let is_apart = |&v: &u32| !is_touched[v as usize] && !corners.contains(&v) && !self.is_beside(v, &corners);
+            let Some(v) = spared.find(is_apart) else { break };
             let around = self.neighbours(v);
             if !self.free_to_three(v) {
                 continue;
             }
-            touched.extend(corners.into_iter().chain(around));
-            touched.push(v);
             let [_, second, third] = self.mesh.unite(v);
             let middle = corners.iter().map(|&v| self.at(v)).sum::<DVec3>() / 3.0;
             self.mesh.set_place(v, self.land(&self.vertex(beside), middle).numbers());
             self.mesh.divide(v, [h / 3, second, third]);
-            touched.iter().for_each(|&v| self.soil(v));
+            for v in corners.into_iter().chain(around).chain([v]) {
+                is_touched[v as usize] = true;
+                self.soil(v);
+            }
             n_put += 1;
             if n_put == most {
                 break;
             }
         }
+        debug_assert_eq!(self.check(), Ok(()));
         n_put
     }
 
     fn plan(&self, bounds: Bounds) -> Plan {
-        let [least, most] = bounds.degrees();
         let mut plan = Plan::default();
         let (mut ring, mut few, mut others) = (Vec::new(), Vec::new(), Vec::new());
         for v in 0..self.n_points() as u32 {
             self.walk_alone(v, &mut ring);
-            if !self.is_bound(v) {
-                let is_inside = !self.is_fixed(v) && ring.iter().all(|spoke| !self.is_bound(spoke.vertex) && spoke.half_edge != BORDER);
-                if is_inside && ring.len() <= FEW_NEIGHBOURS {
+            if self.is_bound(v) {
+                self.sectors(v, &ring).iter().for_each(|sector| self.look_into(sector, bounds, &mut plan));
+            } else if self.is_spare(v, &ring) {
+                if ring.len() <= FEW_NEIGHBOURS {
                     few.push(v);
-                } else if is_inside {
+                } else {
                     let nearest = ring.iter().map(|spoke| spoke.way.length()).fold(f64::INFINITY, f64::min);
                     others.push((nearest / self.local_spacing(v), v));
-                }
-                continue;
-            }
-            for sector in self.sectors(v, &ring) {
-                let angles: Vec<f64> = sector.windows(2).map(|pair| pair[0].way.angle_between(pair[1].way).to_degrees()).collect();
-                let (sum, n) = (angles.iter().sum::<f64>(), angles.len() as f64);
-                if !bounds.divides(sum) {
-                    continue;
-                }
-                if sum > n * most + SPARE_DEG {
-                    let widest = (0..angles.len()).max_by(|&a, &b| angles[a].total_cmp(&angles[b]));
-                    plan.wanting.extend(widest.map(|k| sector[k].half_edge));
-                } else if sum < n * least - SPARE_DEG {
-                    let inner = (1..angles.len()).filter(|&k| !self.is_fixed(sector[k].vertex) && !self.is_bound(sector[k].vertex));
-                    let narrowest = inner.min_by(|&a, &b| (angles[a - 1] + angles[a]).total_cmp(&(angles[b - 1] + angles[b])));
-                    plan.spared.extend(narrowest.map(|k| sector[k].vertex));
                 }
             }
         }
         plan.spared.extend(few);
         // What is one too many beside a crease goes where there is most room; what is missing there comes from where there is least.
         let n_wanting = plan.wanting.len();
-        plan.wanting.extend(self.roomy().take(plan.spared.len().saturating_sub(n_wanting)));
+        if plan.spared.len() > n_wanting {
+            plan.wanting.extend(self.roomy().take(plan.spared.len() - n_wanting));
+        }
         others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        plan.spared.extend(others.into_iter().map(|(_, v)| v).take(SPARE * n_wanting));
+        plan.spared.extend(others.into_iter().map(|(_, v)| v).take(CHOICE * n_wanting));
         plan
+    }
+
+    /// Plans for the angle between two creases: a vertex more, or one fewer.
+    fn look_into(&self, sector: &[&Spoke<DVec3>], bounds: Bounds, plan: &mut Plan) {
+        let [least, most] = bounds.degrees();
+        let angles: Vec<f64> = sector.windows(2).map(|pair| pair[0].way.angle_between(pair[1].way).to_degrees()).collect();
+        let (sum, n) = (angles.iter().sum::<f64>(), angles.len() as f64);
+        if !bounds.divides(sum) {
+            return;
+        }
+        if sum > n * most + SPARE_DEG {
+            let widest = (0..angles.len()).max_by(|&a, &b| angles[a].total_cmp(&angles[b]));
+            plan.wanting.extend(widest.map(|k| sector[k].half_edge));
+        } else if sum < n * least - SPARE_DEG {
+            let inner = (1..angles.len()).filter(|&k| self.is_inside(sector[k].vertex));
+            let narrowest = inner.min_by(|&a, &b| (angles[a - 1] + angles[a]).total_cmp(&(angles[b - 1] + angles[b])));
+            plan.spared.extend(narrowest.map(|k| sector[k].vertex));
+        }
+    }
+
+    /// Whether a vertex is on no crease or boundary, and does not stay.
+    fn is_inside(&self, v: u32) -> bool {
+        !self.is_bound(v) && !self.is_fixed(v)
+    }
+
+    /// Whether a vertex is away from creases and boundaries, and the surface about flat there.
+    fn is_spare(&self, v: u32, ring: &[Spoke<DVec3>]) -> bool {
+        let is_away = self.is_inside(v) && ring.iter().all(|spoke| !self.is_bound(spoke.vertex));
+        let after = ring.iter().cycle().skip(1);
+        is_away && ring.iter().zip(after).map(|(a, b)| a.way.angle_between(b.way)).sum::<f64>() > FLAT_DEG.to_radians()
     }
 
     /// Triangles of which no corner is on a crease or stays, the largest first, each by a half-edge.
     fn roomy(&self) -> impl Iterator<Item = u32> {
-        let is_inside = |v: u32| !self.is_bound(v) && !self.is_fixed(v);
         let area = |t: u32| {
             let corners = [0, 1, 2].map(|k| self.mesh.origin(3 * t + k));
             let [a, b, c] = corners.map(|v| self.at(v));
             let size = corners.iter().map(|&v| self.size(v)).sum::<f64>();
-            corners.into_iter().all(is_inside).then(|| ((b - a).cross(c - a).length() / (size * size), 3 * t))
+            corners.into_iter().all(|v| self.is_inside(v)).then(|| ((b - a).cross(c - a).length() / (size * size), 3 * t))
         };
         let mut all: Vec<(f64, u32)> = (0..self.mesh.n_half_edges() as u32 / 3).filter_map(area).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         all.into_iter().map(|(_, h)| h)
     }
 
-    /// Makes both angles right where two triangles share a half turn, and one of them is obtuse by a little: there is nothing better.
-    pub(super) fn square_up(&self) {
-        let (mut ring, mut moving) = (Vec::new(), Vec::new());
-        for v in (0..self.n_points() as u32).filter(|&v| self.is_bound(v)) {
-            self.walk_alone(v, &mut ring);
-            for sector in self.sectors(v, &ring) {
-                let [before, middle, after] = sector[..] else { continue };
-                let along = (after.way - before.way).normalize_or_zero();
-                let off = middle.way.dot(along);
-                let is_straight = before.way.cross(after.way).length() < STRAIGHT * before.way.length() * after.way.length();
-                if !is_straight || self.is_fixed(middle.vertex) || off.abs() > LITTLE_OFF * middle.way.length() {
-                    continue;
-                }
-                let w = middle.vertex;
-                self.walk_alone(w, &mut moving);
-                let (from, n_before) = (self.vertex(w), self.n_obtuse_around(w, &moving));
-                if n_before > 0 && self.step(w, -off * along, &moving) && self.n_obtuse_around(w, &moving) >= n_before {
-                    self.mesh.set_place(w, from.numbers());
-                }
-            }
-        }
-    }
-
-    fn n_obtuse_around(&self, v: u32, ring: &[Spoke<DVec3>]) -> usize {
-        let after = |k: usize| &ring[if k + 1 == ring.len() { 0 } else { k + 1 }];
-        let corners = |k: usize| [v, ring[k].vertex, after(k).vertex].map(|v| self.at(v));
-        let is_obtuse = |&k: &usize| Shape::of_space(corners(k)).extreme_angles_deg()[1] > RIGHT_DEG;
-        (0..ring.len()).filter(|&k| ring[k].half_edge != BORDER).filter(is_obtuse).count()
-    }
-
     /// The spokes around a vertex from crease to crease, both included.
-    fn sectors<'r>(&self, v: u32, ring: &'r [Spoke<DVec3>]) -> Vec<Vec<&'r Spoke<DVec3>>> {
+    pub(super) fn sectors<'r>(&self, v: u32, ring: &'r [Spoke<DVec3>]) -> Vec<Vec<&'r Spoke<DVec3>>> {
         let bonds: Vec<usize> = (0..ring.len()).filter(|&k| self.is_bond(v, ring[k].vertex)).collect();
         let is_open = ring.iter().any(|spoke| spoke.half_edge == BORDER);
         let ends = bonds.iter().skip(1).copied().chain(bonds.first().filter(|_| !is_open).map(|&k| k + ring.len()));
         bonds.iter().zip(ends).map(|(&from, to)| (from..=to).map(|k| &ring[k % ring.len()]).collect()).collect()
     }
 
-    fn neighbours(&self, v: u32) -> Vec<u32> {
-        let mut ring = Vec::new();
-        self.walk_alone(v, &mut ring);
-        ring.iter().map(|spoke| spoke.vertex).collect()
-    }
-
     fn is_beside(&self, v: u32, others: &[u32]) -> bool {
         self.neighbours(v).iter().any(|other| others.contains(other))
     }
 
-    /// Flips spokes of a vertex until three are left. Whether that can be done.
+    /// Flips spokes of a vertex until three are left. Whether that can be done, and a triangle can take its place.
     fn free_to_three(&self, v: u32) -> bool {
-        let Vertex { at, .. } = self.vertex(v);
+        let at = self.at(v);
         let [x, y] = self.tangents(v);
         let flat = |other: u32| {
             let way = self.at(other) - at;
@@ -194,6 +172,9 @@ impl LiveSurface<'_> {
             }
             h = turned;
         }
-        n_spokes == 3
+        // Of a tetrahedron the triangle is there already.
+        let rim = next(self.mesh.outgoing(v));
+        let [.., across] = self.mesh.quadrilateral(rim);
+        n_spokes == 3 && !self.neighbours(v).contains(&across)
     }
 }

@@ -140,7 +140,7 @@ impl<const N: usize> SharedMesh<N> {
         self.replace(triangles, corners, &made);
     }
 
-    /// Makes triangles in the place of others; walks around the corners that are on a border still begin there.
+    /// Makes triangles in the place of others. Walks around corners on a border still begin there.
     fn replace(&self, old: [u32; 3], corners: [u32; 3], made: &[(u32, [(u32, u32); 3])]) {
         let starts = corners.map(|v| self.outgoing(v));
         let are_on_border = starts.map(|h| self.twin(h) == BORDER);
