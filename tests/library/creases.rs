@@ -107,3 +107,35 @@ fn small_parts_keep_their_vertices() {
         assert_eq!(Surface::new(&made.mesh).unwrap().euler_characteristic(), surface.euler_characteristic(), "{seed}");
     }
 }
+
+/// A vertex beside a boundary that is one too many has an edge of the boundary around it.
+#[test]
+fn vertices_beside_a_boundary_are_spared_too() {
+    let vertices = vec![
+        [0.78125, 0.03125, 0.28125],
+        [0.25, 0.0, 0.3125],
+        [0.0, 0.46875, 0.59375],
+        [0.71875, 0.96875, 0.9375],
+        [0.937500001, 0.28125, 0.3125],
+    ];
+    let triangles = vec![
+        [2, 3, 1],
+        [0, 4, 1],
+        [4, 3, 2],
+        [1, 3, 2],
+        [0, 2, 1],
+        [0, 1, 3],
+        [4, 0, 2],
+        [1, 2, 0],
+        [1, 3, 2],
+        [0, 1, 4],
+        [2, 4, 3],
+        [3, 0, 1],
+    ];
+    let surface = Surface::repaired(&TriangleMesh { vertices, triangles, attributes: Vec::new() }).unwrap();
+    for n_vertices in [100, 145, 170] {
+        let (made, _) = remeshed(&surface, n_vertices, 0);
+        let made = Surface::new(&made.mesh).unwrap();
+        assert_eq!(made.euler_characteristic(), surface.euler_characteristic(), "{n_vertices}");
+    }
+}

@@ -172,9 +172,9 @@ impl LiveSurface<'_> {
             }
             h = turned;
         }
-        // Of a tetrahedron the triangle is there already.
-        let rim = next(self.mesh.outgoing(v));
-        let [.., across] = self.mesh.quadrilateral(rim);
-        n_spokes == 3 && !self.neighbours(v).contains(&across)
+        let across = self.mesh.twin(next(self.mesh.outgoing(v)));
+        let is_tetrahedron = across != BORDER && self.neighbours(v).contains(&self.mesh.turn(across).0);
+        // A tetrahedron has the triangle already.
+        n_spokes == 3 && !is_tetrahedron
     }
 }
