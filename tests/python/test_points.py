@@ -134,7 +134,7 @@ def test_targets_that_are_missed_are_told():
 @pytest.mark.parametrize(
     ("message", "arguments"),
     [
-        ("invalid value 'nonsense' for 'method'", {"n": 10, "method": "nonsense"}),
+        ('there is no method "nonsense"', {"n": 10, "method": "nonsense"}),
         ("beta is for method well-spaced or opt-beta", {"n": 10, "beta": 0.7}),
         ("beta is 0.2; it must be", {"n": 10, "method": "well-spaced", "beta": 0.2}),
         ("n is 0", {"n": 0}),

@@ -3,16 +3,18 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
-use evenly::{Method, Settings};
-use evenly_io::Format;
+use evenly::Method;
+use evenly_io::{Draw, Format};
+use evenly_jobs::{CompareRequest, Compared, GenerateRequest, OptimizeRequest};
 
+use crate::files::Files;
 use crate::measuring_args::{Analyze, Bilateral, Reproduce, Zoneplate};
 use crate::memory;
 use crate::mesh_args::Mesh;
-use crate::method::{Any, MethodArgs, Optimizers, Starts, Told, parse_told, parser};
+use crate::method::{Any, MethodArgs, Optimizers, Starts, parse_compared, parser};
 use crate::parse::{parse_count, parse_format};
 use crate::remesh_args::{Remesh, Sample};
-use crate::shared_args::{DensityArgs, DrawArg, FixedArg, LongArgs, MetricArg, SpaceArgs};
+use crate::shared_args::{DensityArgs, FixedArg, LongArgs, MetricArg, SpaceArgs, draw_parser};
 use crate::stipple_args::Stipple;
 
 const EXAMPLES: &str = "\
@@ -152,8 +154,8 @@ pub struct Compare {
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = parser::<Any>(), hide_possible_values = true)]
     pub methods: Vec<Method>,
     /// One more, and what it alone is told; may be given several times
-    #[arg(short, long = "method", value_name = "METHOD[:FLAG=VALUE,...]", value_parser = parse_told)]
-    pub told: Vec<Told>,
+    #[arg(short, long = "method", value_name = "METHOD[:FLAG=VALUE,...]", value_parser = parse_compared)]
+    pub told: Vec<Compared>,
     /// How often, each time with the next seed
     #[arg(long, value_name = "K", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     pub runs: u16,
@@ -181,9 +183,56 @@ pub struct Compare {
 }
 
 impl Generate {
-    /// What the method is told.
-    pub fn told(&self) -> Settings {
-        if self.method.is_optimizer() { self.optimizer.of(self.method) } else { self.starts.of(self.method) }
+    /// What is asked for.
+    pub fn request(&self, files: &mut Files) -> anyhow::Result<GenerateRequest> {
+        Ok(GenerateRequest {
+            n_points: self.n_points,
+            method: self.method,
+            parameters: self.optimizer.settings().overlaid(&self.starts.settings()),
+            start: self.start,
+            no_warp: self.warp.no_warp,
+            seed: self.seed,
+            space: self.space.domain(files)?,
+            metric: self.metric.metric(),
+            density: self.density.resource(),
+            fixed: files.names(self.fixed.fixed.as_ref()),
+        })
+    }
+}
+
+impl Optimize {
+    /// What is asked for.
+    pub fn request(&self, files: &mut Files) -> anyhow::Result<OptimizeRequest> {
+        Ok(OptimizeRequest {
+            points: files.name(&self.input),
+            method: self.method,
+            parameters: self.optimizer.settings(),
+            no_warp: self.warp.no_warp,
+            seed: self.seed,
+            space: self.space.domain(files)?,
+            metric: self.metric.metric(),
+            density: self.density.resource(),
+            fixed: files.names(self.fixed.fixed.as_ref()),
+        })
+    }
+}
+
+impl Compare {
+    /// What is asked for.
+    pub fn request(&self, files: &mut Files) -> anyhow::Result<CompareRequest> {
+        Ok(CompareRequest {
+            points: files.names(self.input.as_ref()),
+            n_points: self.n_points,
+            methods: self.methods.iter().map(|&method| method.into()).chain(self.told.iter().cloned()).collect(),
+            parameters: self.optimizer.settings(),
+            runs: self.runs,
+            start: self.start,
+            no_warp: self.warp.no_warp,
+            seed: self.seed,
+            space: self.space.domain(files)?,
+            metric: self.metric.metric(),
+            density: self.density.resource(),
+        })
     }
 }
 
@@ -213,8 +262,8 @@ pub struct RunArgs {
     #[arg(long, value_parser = parse_format)]
     pub format: Option<Format>,
     /// What is drawn, parts as in analyze [default: points]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "PARTS", hide_possible_values = true)]
-    pub draw: Option<Vec<DrawArg>>,
+    #[arg(long, value_parser = draw_parser(), value_delimiter = ',', value_name = "PARTS", hide_possible_values = true)]
+    pub draw: Option<Vec<Draw>>,
     /// Write the run's whole record, as JSON
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,

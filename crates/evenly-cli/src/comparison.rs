@@ -1,8 +1,11 @@
 //! What `evenly compare` has found.
 
-use evenly::{Measures, Space};
+use evenly::Space;
+use evenly_jobs::{Column, CompareOutcome, CompareRun};
 use serde::Serialize;
 use serde_json::Value;
+
+use crate::record;
 
 /// Methods side by side.
 #[derive(Serialize)]
@@ -17,29 +20,9 @@ pub struct Comparison {
     pub start: Option<String>,
     #[serde(rename = "methods")]
     pub columns: Vec<Column>,
-}
-
-/// The runs of one method.
-#[derive(Serialize)]
-pub struct Column {
-    pub method: String,
-    pub runs: Vec<Run>,
-    /// The first run's points, as SVG.
+    /// Of each method the first run's points, as SVG.
     #[serde(skip)]
-    pub picture: Option<String>,
-}
-
-#[derive(Serialize)]
-pub struct Run {
-    pub seed: u64,
-    /// Wall time, with the warp, without the measuring.
-    pub seconds: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub iterations: Option<usize>,
-    /// Whether its targets were; absent for a method without any.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub is_reached: Option<bool>,
-    pub measures: Measures,
+    pub pictures: Vec<Option<String>>,
 }
 
 /// Mean and standard deviation over runs.
@@ -49,55 +32,64 @@ pub struct Spread {
     pub sd: f64,
 }
 
-impl Run {
-    /// Every measure as a number, by name: the valences as shares.
-    pub fn numbers(&self) -> Vec<(String, f64)> {
-        let mut numbers = Vec::new();
-        if let Ok(Value::Object(fields)) = serde_json::to_value(&self.measures) {
-            for (name, value) in &fields {
-                match value {
-                    Value::Object(_) => numbers.extend(self.valences()),
-                    Value::Null => numbers.push((name.clone(), if name == "beta" { f64::INFINITY } else { f64::NAN })),
-                    value => numbers.extend(value.as_f64().map(|number| (name.clone(), number))),
-                }
+/// Every measure as a number, by name: the valences as shares.
+pub fn numbers(run: &CompareRun) -> Vec<(String, f64)> {
+    let mut numbers = Vec::new();
+    if let Ok(Value::Object(fields)) = serde_json::to_value(&run.measures) {
+        for (name, value) in &fields {
+            match value {
+                Value::Object(_) => numbers.extend(valences(run)),
+                Value::Null => numbers.push((name.clone(), if name == "beta" { f64::INFINITY } else { f64::NAN })),
+                value => numbers.extend(value.as_f64().map(|number| (name.clone(), number))),
             }
         }
-        numbers.push(("seconds".into(), self.seconds));
-        numbers.extend(self.iterations.map(|n| ("iterations".into(), n as f64)));
-        numbers.extend(self.is_reached.map(|is_reached| ("reached_fraction".into(), f64::from(u8::from(is_reached)))));
-        numbers
     }
-
-    fn valences(&self) -> Vec<(String, f64)> {
-        let valence = &self.measures.valence;
-        let all: usize = valence.values().sum();
-        let share = |n: usize| n as f64 / all as f64;
-        let known = [5, 6, 7].map(|k| valence.get(&k).copied().unwrap_or_default());
-        let named = [5, 6, 7].into_iter().zip(known).map(|(k, n)| (format!("valence_{k}_fraction"), share(n)));
-        named.chain([("valence_other_fraction".into(), share(all - known.iter().sum::<usize>()))]).collect()
-    }
+    numbers.push(("seconds".into(), run.seconds));
+    numbers.extend(run.iterations.map(|n| ("iterations".into(), n as f64)));
+    numbers.extend(run.is_reached.map(|is_reached| ("reached_fraction".into(), f64::from(u8::from(is_reached)))));
+    numbers
 }
 
-impl Column {
-    /// A measure over the runs; `None` if they do not have it.
-    pub fn spread(&self, name: &str) -> Option<Spread> {
-        let of = |run: &Run| run.numbers().into_iter().find(|(known, _)| known == name).map(|(_, number)| number);
-        let numbers: Vec<f64> = self.runs.iter().filter_map(of).collect();
-        if numbers.is_empty() {
-            return None;
-        }
-        let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
-        let squares: f64 = numbers.iter().map(|number| (number - mean).powi(2)).sum();
-        Some(Spread { mean, sd: (squares / (numbers.len() as f64 - 1.0).max(1.0)).sqrt() })
+fn valences(run: &CompareRun) -> Vec<(String, f64)> {
+    let valence = &run.measures.valence;
+    let all: usize = valence.values().sum();
+    let share = |n: usize| n as f64 / all as f64;
+    let known = [5, 6, 7].map(|k| valence.get(&k).copied().unwrap_or_default());
+    let named = [5, 6, 7].into_iter().zip(known).map(|(k, n)| (format!("valence_{k}_fraction"), share(n)));
+    named.chain([("valence_other_fraction".into(), share(all - known.iter().sum::<usize>()))]).collect()
+}
+
+/// A measure over the runs; `None` if they do not have it.
+pub fn spread(column: &Column, name: &str) -> Option<Spread> {
+    let of = |run: &CompareRun| numbers(run).into_iter().find(|(known, _)| known == name).map(|(_, number)| number);
+    let numbers: Vec<f64> = column.runs.iter().filter_map(of).collect();
+    if numbers.is_empty() {
+        return None;
     }
+    let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+    let squares: f64 = numbers.iter().map(|number| (number - mean).powi(2)).sum();
+    Some(Spread { mean, sd: (squares / (numbers.len() as f64 - 1.0).max(1.0)).sqrt() })
 }
 
 impl Comparison {
+    pub fn new(made: CompareOutcome, pictures: Vec<Option<String>>) -> Self {
+        Self {
+            version: record::VERSION,
+            command: record::command(),
+            space: made.space,
+            n_points: made.n_points,
+            is_interrupted: made.is_cancelled,
+            start: made.start.map(|start| start.name().to_owned()),
+            columns: made.columns,
+            pictures,
+        }
+    }
+
     /// The names of all measures that some run has, in their order.
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for run in self.columns.iter().flat_map(|column| &column.runs) {
-            for (name, _) in run.numbers() {
+            for (name, _) in numbers(run) {
                 if !names.contains(&name) {
                     names.push(name);
                 }

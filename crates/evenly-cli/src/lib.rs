@@ -3,44 +3,34 @@
 mod args;
 mod commands;
 mod comparison;
-mod details;
-mod improve;
-mod input;
+mod files;
 mod interrupt;
 mod measured;
 mod measuring_args;
 mod memory;
 mod mesh_args;
-pub mod meshed;
 mod method;
 mod page;
 mod parse;
 mod record;
 mod remesh_args;
-pub mod remeshed;
 mod reproduce;
-pub mod sampled;
 mod session;
 mod shared_args;
-mod sizes;
 mod stipple;
 mod stipple_args;
-pub mod stippled;
 mod surface_measures;
 mod table;
 mod talk;
-mod unmet;
 mod usage;
-pub mod wishes;
+mod watch;
+mod wording;
 
 use std::ffi::OsString;
 
-use clap::{CommandFactory as _, FromArgMatches as _, ValueEnum as _};
-use evenly::Density;
-use evenly_io::Draw;
+use clap::{CommandFactory as _, FromArgMatches as _};
 
 use args::{Cli, Command};
-use shared_args::DrawArg;
 use talk::say;
 
 /// Bad usage or input.
@@ -77,25 +67,4 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         say(format_args!("error: {error:#}"));
         BAD_INPUT
     })
-}
-
-/// All methods and what they can be told, as JSON.
-pub fn methods() -> serde_json::Value {
-    commands::methods::registry()
-}
-
-/// The density that `--density` would have of these words.
-///
-/// # Errors
-/// As it.
-pub fn density(words: &str) -> anyhow::Result<Density> {
-    shared_args::density_of(words)
-}
-
-/// What `--draw` would draw by this name.
-///
-/// # Errors
-/// There is none of that name.
-pub fn draw(name: &str) -> anyhow::Result<Draw> {
-    DrawArg::from_str(name, false).map(Into::into).map_err(|_| anyhow::anyhow!("nothing to draw has the name {name:?}"))
 }

@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use anyhow::anyhow;
 use evenly::Error;
 use evenly_io::{Format, Target};
 use serde_json::Value;
 
 use crate::session::DONE;
+use crate::wording;
 
 /// Prints on stdout: the JSON, or else the table.
 pub fn print(json: &Value, is_json: bool, table: impl FnOnce() -> String) -> anyhow::Result<u8> {
@@ -18,14 +18,8 @@ pub fn print(json: &Value, is_json: bool, table: impl FnOnce() -> String) -> any
 }
 
 /// The same error, with the name that the user knows: of the flag, by pairs of a parameter and its flag, or of the file.
-pub fn told(error: Error, file: &Path, flags: &[(&str, &str)]) -> anyhow::Error {
-    match error {
-        Error::InvalidParameter { name, value, expected } => {
-            let flag = flags.iter().find(|(parameter, _)| *parameter == name).map_or(name, |(_, flag)| flag);
-            anyhow!("--{flag} is {value}; it must be {expected}")
-        }
-        other => anyhow::Error::from(other).context(file.display().to_string()),
-    }
+pub fn told(error: Error, file: &Path, flags: &[(&'static str, &'static str)]) -> anyhow::Error {
+    wording::told(evenly_jobs::Error::of(error, &file.display().to_string(), flags))
 }
 
 /// A line a field.

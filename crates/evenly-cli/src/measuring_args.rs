@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use evenly::ReconstructionFilter;
+use evenly_io::Draw;
 
-use crate::shared_args::{DensityArgs, DrawArg, LongArgs, MetricArg, SpaceArgs};
+use crate::shared_args::{DensityArgs, LongArgs, MetricArg, SpaceArgs, draw_parser};
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
@@ -35,8 +36,8 @@ pub struct Analyze {
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// What the figure shows
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "PARTS", default_value = "report", requires = "plot")]
-    pub draw: Vec<DrawArg>,
+    #[arg(long, value_parser = draw_parser(), value_delimiter = ',', value_name = "PARTS", default_value = "report", requires = "plot")]
+    pub draw: Vec<Draw>,
     #[command(flatten)]
     pub measured: MeasuredArgs,
 }

@@ -2,14 +2,11 @@
 //! them foresees ends here, in one line, before the machine begins to swap.
 
 use std::alloc::System;
-use std::fmt::Arguments;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use anyhow::bail;
 use cap::Cap;
-use evenly::Method;
 use evenly_io::{bytes_told, discard_temporaries, limit_memory, memory_limit};
 
 use crate::BAD_INPUT;
@@ -25,12 +22,6 @@ const NEARLY: f64 = 0.95;
 const EVERY: Duration = Duration::from_millis(20);
 /// No limit is below this, in bytes: the program itself needs as much.
 const LEAST: f64 = 5e7;
-/// A point takes about so many bytes while it is moved or chosen among many, and while it is only put and measured.
-const OF_MOVING: u64 = 450;
-const OF_PUTTING: u64 = 150;
-/// A vertex of a surface, with its triangles, while it is moved.
-const OF_VERTEX: u64 = 1000;
-
 /// Keeps the process within its limit, of this many bytes if any are given.
 pub fn keep_within(bytes: Option<u64>) {
     if let Some(bytes) = bytes {
@@ -54,25 +45,6 @@ pub fn keep_within(bytes: Option<u64>) {
         }
         end(limit);
     });
-}
-
-/// That so many points by a method fit.
-pub fn require_points(n_points: usize, method: Method) -> anyhow::Result<()> {
-    let each = if method.holds_much() { OF_MOVING } else { OF_PUTTING };
-    require(format_args!("{n_points} points by {}", method.name()), n_points, each)
-}
-
-/// That a surface with so many vertices fits.
-pub fn require_vertices(n_vertices: usize) -> anyhow::Result<()> {
-    require(format_args!("{n_vertices} vertices"), n_vertices, OF_VERTEX)
-}
-
-fn require(what: Arguments, n: usize, each: u64) -> anyhow::Result<()> {
-    let (needed, allowed) = ((n as u64).saturating_mul(each), memory_limit());
-    if needed > allowed {
-        bail!("{what} take about {} of memory; --memory allows {}", bytes_told(needed), bytes_told(allowed));
-    }
-    Ok(())
 }
 
 fn end(limit: u64) -> ! {

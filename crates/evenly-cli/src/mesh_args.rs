@@ -3,10 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
-use evenly::{LocalMethod, MeshParams, Method, Setting, angle_bounds_deg};
+use evenly::Method;
 use evenly_io::MeshFormat;
+use evenly_jobs::{MeshRequest, push_pull};
 
-use crate::method::{MethodArgs, OnMeshes, by_flag, parser};
+use crate::files::Files;
+use crate::method::{MethodArgs, OnMeshes, parser};
 use crate::parse::parse_count;
 use crate::shared_args::{DensityArgs, LongArgs};
 
@@ -96,35 +98,30 @@ pub struct MeshWishes {
     pub no_obtuse: bool,
 }
 
-/// What sets the lengths that push-pull aims at.
-const LENGTHS: [&str; 3] = ["preset", "min_distance", "coverage_radius"];
-
-impl MeshWishes {
-    /// The method with its parameters; `None` where nothing is said of push-pull: its targets then suit the demands.
-    pub fn mesh_method(&self) -> anyhow::Result<Option<LocalMethod>> {
-        self.method_args.refuse_others(&[self.method])?;
-        let mut told = self.method_args.of(self.method);
-        if self.method == push_pull() && !LENGTHS.iter().any(|name| told.get(name).is_some()) {
-            if told.names().next().is_none() {
-                return Ok(None);
-            }
-            told = MeshParams::usual_targets(self.no_obtuse).overlaid(&told);
+impl Mesh {
+    /// What is asked for.
+    pub fn request(&self, files: &mut Files) -> MeshRequest {
+        files.curve_tolerance = self.curve_tolerance;
+        let wishes = &self.wishes;
+        MeshRequest {
+            polygon: if self.regions { None } else { Some(files.name(&self.input)) },
+            regions: self.regions.then(|| files.name(&self.input)),
+            edge_length: wishes.edge_length,
+            n_triangles: wishes.n_triangles,
+            simplify: wishes.simplify,
+            seed: wishes.seed,
+            method: wishes.method,
+            parameters: wishes.method_args.settings(),
+            grade: wishes.grade,
+            max_edge_length: wishes.max_edge_length,
+            sizes: files.names(self.sizes.as_ref()),
+            density: wishes.density.resource(),
+            min_angle: wishes.min_angle,
+            no_obtuse: wishes.no_obtuse,
+            fixed: files.names(self.fixed.as_ref()),
+            lines: files.names(self.lines.as_ref()),
         }
-        self.method.on_meshes(&told, self.seed).map(Some).map_err(by_flag)
     }
-
-    /// The smallest angle that targets imply that were given, in degrees.
-    pub fn implied_angle_deg(&self, method: Option<&LocalMethod>) -> Option<f64> {
-        let told = self.method_args.of(self.method);
-        let of_lengths = method?.beta().filter(|_| LENGTHS.iter().any(|name| told.get(name).is_some()));
-        let beta = if let Some(Setting::Number(beta)) = told.get("beta") { Some(*beta) } else { of_lengths };
-        angle_bounds_deg(beta?).map(|[least, _]| least)
-    }
-}
-
-/// The method of meshes where none is asked for.
-pub fn push_pull() -> Method {
-    Method::named("push-pull").unwrap_or_default()
 }
 
 pub fn parse_mesh_format(text: &str) -> Result<MeshFormat, String> {

@@ -2,22 +2,20 @@
 
 use std::marker::PhantomData;
 
-use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use evenly::{About, Error, Group, Method, ParameterKind, Setting, Settings, Space};
+use evenly::{About, Group, Method, ParameterKind, Setting, Settings};
+use evenly_jobs::{Compared, Job, names};
 
-/// The two that make points on a surface without a mesh of them.
-pub const WHITE: &str = "white";
-pub const POISSON_DISK: &str = "poisson-disk";
+use crate::wording::told;
 
 /// Methods among which a flag or a command chooses.
 pub trait Offered {
-    fn is_offered(method: Method) -> bool;
+    const JOB: Job;
 
-    fn all() -> Vec<Method> {
-        Method::all().filter(|&method| Self::is_offered(method)).collect()
+    fn methods() -> Vec<Method> {
+        Self::JOB.methods()
     }
 }
 
@@ -37,50 +35,40 @@ pub struct OnMeshes;
 pub struct OnSurfaces;
 
 impl Offered for Any {
-    fn is_offered(_: Method) -> bool {
-        true
-    }
+    const JOB: Job = Job::Generate;
 }
 
 impl Offered for Optimizers {
-    fn is_offered(method: Method) -> bool {
-        method.is_optimizer()
-    }
+    const JOB: Job = Job::Optimize;
 }
 
 impl Offered for Starts {
-    fn is_offered(method: Method) -> bool {
-        method.is_start()
-    }
+    const JOB: Job = Job::Start;
 }
 
 impl Offered for ByDensity {
-    fn is_offered(method: Method) -> bool {
-        method.knows_density()
+    const JOB: Job = Job::Stipple;
+}
+
+impl Offered for OptimizersByDensity {
+    const JOB: Job = Job::Stipple;
+
+    fn methods() -> Vec<Method> {
+        Self::JOB.methods().into_iter().filter(Method::is_optimizer).collect()
     }
 }
 
 impl Offered for OnMeshes {
-    fn is_offered(method: Method) -> bool {
-        method.is_local()
-    }
+    const JOB: Job = Job::Mesh;
 }
 
 impl Offered for OnSurfaces {
-    fn is_offered(method: Method) -> bool {
-        method.is_local() || [WHITE, POISSON_DISK].contains(&method.name())
-    }
-}
-
-impl Offered for OptimizersByDensity {
-    fn is_offered(method: Method) -> bool {
-        method.knows_density() && method.is_optimizer()
-    }
+    const JOB: Job = Job::Sample;
 }
 
 /// Reads the name of a method that is offered.
 pub fn parser<O: Offered>() -> impl TypedValueParser<Value = Method> {
-    let offered = O::all().into_iter().map(|method| PossibleValue::new(method.name()).help(method.title()));
+    let offered = O::methods().into_iter().map(|method| PossibleValue::new(method.name()).help(method.title()));
     PossibleValuesParser::new(offered).try_map(|name| Method::named(&name).ok_or("there is no such method"))
 }
 
@@ -90,24 +78,10 @@ pub struct MethodArgs<O> {
     offered: PhantomData<O>,
 }
 
-impl<O: Offered> MethodArgs<O> {
-    /// What a method is told of it.
-    pub fn of(&self, method: Method) -> Settings {
-        method.own(&self.settings)
-    }
-
-    /// Whether a parameter is given.
-    pub fn is_given(&self, name: &str) -> bool {
-        self.settings.get(name).is_some()
-    }
-
-    /// Refuses parameters that none of the methods has.
-    pub fn refuse_others(&self, methods: &[Method]) -> anyhow::Result<()> {
-        let is_taken = |name: &str| methods.iter().any(|method| method.takes(name));
-        match self.settings.names().find(|name| !is_taken(name)) {
-            Some(name) => bail!("--{} is for --method {}", flag(name), names(&takers::<O>(name))),
-            None => Ok(()),
-        }
+impl<O> MethodArgs<O> {
+    /// All that is given.
+    pub fn settings(&self) -> Settings {
+        self.settings.clone()
     }
 }
 
@@ -167,23 +141,8 @@ fn with_value(arg: Arg, about: About, parser: ValueParser) -> Arg {
     arg.value_name(about.symbol).value_parser(parser).allow_negative_numbers(true)
 }
 
-/// A method and what it alone is told, as `push-pull:min-distance=0.8,coverage-radius=0.65`.
-#[derive(Clone)]
-pub struct Told {
-    /// As it was written.
-    pub label: String,
-    pub method: Method,
-    pub settings: Settings,
-}
-
-impl From<Method> for Told {
-    fn from(method: Method) -> Self {
-        Self { label: method.name().into(), method, settings: Settings::default() }
-    }
-}
-
-/// Reads a method and what it alone is told.
-pub fn parse_told(text: &str) -> Result<Told, String> {
+/// Reads a method and what it alone is told, as `push-pull:min-distance=0.8,coverage-radius=0.65`.
+pub fn parse_compared(text: &str) -> Result<Compared, String> {
     let (name, words) = text.split_once(':').unwrap_or((text, ""));
     let method = Method::named(name).ok_or_else(|| format!("there is no method {name:?}; evenly methods lists them"))?;
     let mut settings = Settings::default();
@@ -202,8 +161,8 @@ pub fn parse_told(text: &str) -> Result<Told, String> {
         };
         settings.set(about.name, value.map_err(|why| format!("{word}: {why}"))?);
     }
-    method.optimizer(&settings, 0).map_err(|error| by_flag(error).to_string())?;
-    Ok(Told { label: text.into(), method, settings })
+    method.optimizer(&settings, 0).map_err(|error| told(error).to_string())?;
+    Ok(Compared { label: text.into(), method, parameters: settings })
 }
 
 fn number(text: &str) -> Result<f64, String> {
@@ -232,7 +191,7 @@ type Taker = (Method, About, Option<Setting>);
 /// The parameters of all methods that are offered, in their order, with those that have them.
 fn parameters<O: Offered>() -> Vec<(About, Vec<Taker>)> {
     let mut found: Vec<(About, Vec<Taker>)> = Vec::new();
-    for method in O::all() {
+    for method in O::methods() {
         for (about, default) in method.parameters() {
             match found.iter_mut().find(|(known, _)| known.name == about.name) {
                 Some((_, takers)) => takers.push((method, about, default)),
@@ -245,7 +204,7 @@ fn parameters<O: Offered>() -> Vec<(About, Vec<Taker>)> {
 
 /// The methods' words on a parameter, each once.
 fn help<O: Offered>(takers: &[Taker]) -> Help {
-    let n_with_any = O::all().iter().filter(|method| !method.parameters().is_empty()).count();
+    let n_with_any = O::methods().iter().filter(|method| !method.parameters().is_empty()).count();
     let docs = grouped(takers, |(_, about, _)| about.doc.to_owned());
     let mut short = match &docs[..] {
         [(doc, _)] if takers.len() == n_with_any => doc.clone(),
@@ -290,73 +249,8 @@ fn grouped(takers: &[Taker], say: impl Fn(&Taker) -> String) -> Vec<(String, Vec
     groups
 }
 
-/// The methods that have a parameter.
-fn takers<O: Offered>(name: &str) -> Vec<Method> {
-    O::all().into_iter().filter(|method| method.takes(name)).collect()
-}
-
-/// The same error, with the names of flags.
-pub fn by_flag(error: Error) -> anyhow::Error {
-    let shown = |name: &str| format!("--{}", if name.starts_with("max_") { "iterations".into() } else { flag(name) });
-    match error {
-        Error::InvalidParameter { name, value, expected } => anyhow!("{} is {value}; it must be {expected}", shown(name)),
-        Error::Missing { names, question } => {
-            let names: Vec<String> = names.iter().map(|name| shown(name)).collect();
-            anyhow!("{} is missing: {question}", names.join(" or "))
-        }
-        Error::Excluded { names: [one, other], why } => anyhow!("{} and {} exclude each other: {why}", shown(one), shown(other)),
-        other => other.into(),
-    }
-}
-
 fn flag(name: &str) -> String {
     name.replace('_', "-")
-}
-
-/// Names for a sentence.
-pub fn names(methods: &[Method]) -> String {
-    match methods {
-        [all @ .., last] if !all.is_empty() => {
-            let all: Vec<&str> = all.iter().map(Method::name).collect();
-            format!("{} or {last}", all.join(", "))
-        }
-        [one] => one.name().to_owned(),
-        _ => String::new(),
-    }
-}
-
-/// All that make points in a space, by a density if there is one, optimisers, then starts.
-pub fn all_in(space: &Space, has_density: bool) -> Vec<Method> {
-    let is_there = |method: &Method| method.takes_space(space) && (method.knows_density() || !has_density) && method.name() != "warp";
-    Method::all().filter(is_there).collect()
-}
-
-/// Refuses a method that knows no density, where there is one.
-pub fn refuse_density(method: Method) -> anyhow::Result<()> {
-    if !method.knows_density() {
-        bail!("--density is for --method {}", names(&ByDensity::all()));
-    }
-    Ok(())
-}
-
-/// Refuses a start that knows no density, where there is one.
-pub fn require_density(start: Method) -> anyhow::Result<()> {
-    if !start.knows_density() {
-        let known: Vec<Method> = Starts::all().into_iter().filter(Method::knows_density).collect();
-        bail!("--start {start} goes by no density; take {}", names(&known));
-    }
-    Ok(())
-}
-
-/// Refuses flags for what comes before an optimiser, where there is none.
-pub fn refuse_beginning(method: Method, has_start: bool, is_unwarped: bool) -> anyhow::Result<()> {
-    if has_start && !method.is_optimizer() {
-        bail!("--start is for --method {}", names(&Optimizers::all()));
-    }
-    if is_unwarped && !method.is_warped_first() {
-        bail!("--no-warp is for --method {}", names(&Method::all().filter(Method::is_warped_first).collect::<Vec<_>>()));
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -383,13 +277,13 @@ mod tests {
 
     #[test]
     fn a_method_can_be_told_by_itself() {
-        let told =
-            parse_told("push-pull:min-distance=0.8,capacity-tolerance=off,schedule=summed").map(|told| (told.method.name(), told.settings));
+        let told = parse_compared("push-pull:min-distance=0.8,capacity-tolerance=off,schedule=summed")
+            .map(|told| (told.method.name(), told.parameters));
         let wanted = Settings::default().with("min_distance", Setting::Number(0.8)).with("capacity_tolerance", Setting::Off);
         assert_eq!(told, Ok(("push-pull", wanted.with("schedule", Setting::Choice("summed".into())))));
-        assert!(parse_told("farthest-point:local").is_ok());
+        assert!(parse_compared("farthest-point:local").is_ok());
         for wrong in ["", "x", "lloyd:beta=1", "lloyd:iterations=0", "lloyd:iterations", "push-pull:preset=x", "farthest-point:local=2"] {
-            assert!(parse_told(wrong).is_err(), "{wrong}");
+            assert!(parse_compared(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::comparison::{Comparison, shown};
+use crate::comparison::{Comparison, shown, spread};
 
 const STYLE: &str = "\
 body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 90rem; padding: 0 1rem; color: #222; background: #fff }
@@ -33,9 +33,9 @@ pub fn page(comparison: &Comparison) -> String {
         comparison.version
     );
     text.push_str("<div class=\"pictures\">\n");
-    for column in &comparison.columns {
+    for (column, picture) in comparison.columns.iter().zip(&comparison.pictures) {
         // An SVG within a page has no declaration.
-        let picture = column.picture.as_deref().unwrap_or_default();
+        let picture = picture.as_deref().unwrap_or_default();
         let picture = picture.find("<svg").map_or("", |start| &picture[start..]);
         let _ = writeln!(text, "<figure>{picture}<figcaption>{}</figcaption></figure>", escaped(&column.method));
     }
@@ -47,7 +47,7 @@ pub fn page(comparison: &Comparison) -> String {
     for name in comparison.names() {
         let _ = write!(text, "<tr><th>{}</th>", escaped(&name));
         for column in &comparison.columns {
-            let _ = write!(text, "<td>{}</td>", shown(column.spread(&name)));
+            let _ = write!(text, "<td>{}</td>", shown(spread(column, &name)));
         }
         text.push_str("</tr>\n");
     }

@@ -1,6 +1,5 @@
 //! Values of flags that several verbs read the same way.
 
-use clap::Args;
 use evenly::MAX_POINTS;
 use evenly_io::Format;
 
@@ -30,14 +29,4 @@ pub fn parse_mm(text: &str) -> Result<f64, String> {
     let (number, unit) = units.iter().find_map(|&(name, mm)| Some((text.strip_suffix(name)?, mm))).unwrap_or((text, 1.0));
     let length = number.trim().parse::<f64>().map_or(f64::NAN, |number| number * unit);
     if (0.0..=1e5).contains(&length) { Ok(length) } else { Err("it must be a length, such as 10mm, 1cm or 0.5in, 100 m at most".into()) }
-}
-
-/// Flags in words, as `--edge-length=0.1`.
-///
-/// # Errors
-/// What the command line says of them.
-pub fn read_words<T: Args>(words: &[String]) -> anyhow::Result<T> {
-    let command = T::augment_args(clap::Command::new("words").no_binary_name(true).disable_help_flag(true));
-    let read = || T::from_arg_matches(&command.try_get_matches_from(words)?);
-    read().map_err(|error| crate::usage::plain(&error))
 }

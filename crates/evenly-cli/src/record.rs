@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::sync::OnceLock;
 
-use evenly::{Measures, Optimizer, Report, Space, UnmetTarget, angle_bounds_deg};
+use evenly::{Measures, Optimizer, Report, Space, UnmetTarget};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -43,11 +43,6 @@ pub fn parameters(optimizer: &dyn Optimizer) -> Value {
 }
 
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// The angles between which beta certifies those of all triangles to lie, if there are any.
-pub fn certified_angles(measures: &Measures) -> Option<[f64; 2]> {
-    angle_bounds_deg(measures.beta).filter(|_| !measures.angle_rms_deg.is_nan())
-}
 
 /// How an output was made: version, command, seed.
 pub fn recipe(seed: Option<u64>) -> String {

@@ -1,12 +1,14 @@
 //! The arguments of `evenly remesh`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 use evenly::Method;
 use evenly_io::{CloudFormat, MeshFormat};
+use evenly_jobs::{OrOff, RemeshRequest, Resource, SampleRequest, is_resource, push_pull};
 
-use crate::mesh_args::{parse_mesh_format, push_pull};
+use crate::files::Files;
+use crate::mesh_args::parse_mesh_format;
 use crate::method::{MethodArgs, OnMeshes, OnSurfaces, parser};
 use crate::parse::parse_count;
 use crate::shared_args::LongArgs;
@@ -78,10 +80,10 @@ pub struct RemeshWishes {
     /// A crease is kept if it turns twelve times as much as what is around it, or by more than 75 degrees; all that hangs together, if it is longer than four spacings. Tips are
     /// let go where the targets cannot be met otherwise.
     #[arg(long, value_name = "ANGLE", default_value = "40deg", value_parser = parse_features, help_heading = "Shape")]
-    pub features: Features,
+    pub features: OrOff,
     /// How far the input may be from the mesh, in edge lengths: where it is farther, a vertex is put and kept, if targets can be met so; off for as it comes [default: 0.5, 0.35 with --density]
     #[arg(long, value_name = "D", value_parser = parse_deviation, allow_negative_numbers = true, help_heading = "Shape")]
-    pub max_deviation: Option<MaxDeviation>,
+    pub max_deviation: Option<OrOff>,
     /// Mend what can be without guessing: turn triangles that run the wrong way, close cracks at vertices on open edges, separate sheets that touch, cut open what is left
     #[arg(long, help_heading = "Shape")]
     pub repair: bool,
@@ -90,36 +92,76 @@ pub struct RemeshWishes {
     pub weld: Option<f64>,
 }
 
-/// The angle from which on creases are kept; none of borders alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Features(pub Option<f64>);
-
-/// How far the input may be from the mesh, in edge lengths; none for as it comes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MaxDeviation(pub Option<f64>);
-
-fn parse_deviation(text: &str) -> Result<MaxDeviation, String> {
+fn parse_deviation(text: &str) -> Result<OrOff, String> {
     if text == "off" {
-        return Ok(MaxDeviation(None));
+        return Ok(OrOff(None));
     }
     let length = text.parse().ok().filter(|&length: &f64| length > 0.0 && length.is_finite());
-    length.map(|length| MaxDeviation(Some(length))).ok_or_else(|| "it must be positive and finite, or off".to_owned())
+    length.map(|length| OrOff(Some(length))).ok_or_else(|| "it must be positive and finite, or off".to_owned())
 }
 
-fn parse_features(text: &str) -> Result<Features, String> {
+fn parse_features(text: &str) -> Result<OrOff, String> {
     if text == "off" {
-        return Ok(Features(None));
+        return Ok(OrOff(None));
     }
     let angle: Option<f64> = text.strip_suffix("deg").unwrap_or(text).parse().ok();
     let angle = angle.filter(|&angle| angle > 0.0 && angle < 180.0);
-    angle.map(|angle| Features(Some(angle))).ok_or_else(|| "it must be an angle above 0 and below 180, as 40deg, or off".to_owned())
+    angle.map(|angle| OrOff(Some(angle))).ok_or_else(|| "it must be an angle above 0 and below 180, as 40deg, or off".to_owned())
 }
 
 /// The file that a density on a surface is, if it is one.
-pub fn density_path(density: Option<&str>) -> Option<&Path> {
-    let words = density?;
-    let is_named = ["curvature", "lfs", "linear", "attr"].contains(&words.split(':').next().unwrap_or(words));
-    (!is_named).then_some(Path::new(words))
+fn density_path(density: Option<&String>) -> Option<PathBuf> {
+    density.filter(|words| is_resource(words)).map(PathBuf::from)
+}
+
+impl Remesh {
+    /// All that is read.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let density = density_path(self.wishes.density.as_ref());
+        [Some(self.input.clone()), density, self.wishes.points.clone()].into_iter().flatten().collect()
+    }
+
+    /// What is asked for.
+    pub fn request(&self, files: &mut Files) -> RemeshRequest {
+        let wishes = &self.wishes;
+        RemeshRequest {
+            mesh: files.name(&self.input),
+            n_vertices: wishes.n_vertices,
+            edge_length: wishes.edge_length,
+            points: files.names(wishes.points.as_ref()),
+            seed: wishes.seed,
+            method: wishes.method,
+            parameters: wishes.method_args.settings(),
+            density: wishes.density.clone().map(Resource::Name),
+            features: wishes.features,
+            max_deviation: wishes.max_deviation,
+            repair: wishes.repair,
+            weld: wishes.weld,
+        }
+    }
+}
+
+impl Sample {
+    /// All that is read.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        [Some(self.input.clone()), density_path(self.wishes.density.as_ref())].into_iter().flatten().collect()
+    }
+
+    /// What is asked for.
+    pub fn request(&self, files: &mut Files) -> SampleRequest {
+        let wishes = &self.wishes;
+        SampleRequest {
+            mesh: files.name(&self.input),
+            n_points: wishes.n_points,
+            spacing: wishes.spacing,
+            method: wishes.method,
+            parameters: wishes.method_args.settings(),
+            density: wishes.density.clone().map(Resource::Name),
+            seed: wishes.seed,
+            repair: wishes.repair,
+            weld: wishes.weld,
+        }
+    }
 }
 
 #[derive(Args)]

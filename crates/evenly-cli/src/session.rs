@@ -1,18 +1,19 @@
 //! One run from the command line: threads, progress, Ctrl-C, the clock, and what is written at the end.
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Measures, Method, Optimizer, Outcome, Phase, PointSet, Progress, Report, RunContext, UnmetTarget, measure};
+use evenly::{CancelToken, Measures, Outcome, Report, UnmetTarget};
 use evenly_io::{Columns, Draw, Target, write_table};
-use indicatif::{ProgressBar, ProgressStyle};
+use evenly_jobs::{Context, Ending, Error, Message, PointsMeasured, PointsOutcome};
 
 use crate::args::RunArgs;
-use crate::improve::{KEPT, is_nearer, notes, warp_for};
 use crate::interrupt;
 use crate::record::{self, Record};
 use crate::talk::say;
+use crate::watch::Watch;
+use crate::wording::{Flags, told};
 
 /// Done: all exit codes are numbers, so that other faces can read them.
 pub const DONE: u8 = 0;
@@ -29,11 +30,6 @@ pub struct Session<'a> {
     cancel: CancelToken,
     seconds: BTreeMap<&'static str, f64>,
     notes: Vec<String>,
-    optimizer: Option<Box<dyn Optimizer>>,
-    /// What the points of the unit square are restored to before they are written.
-    pub restores_to: Option<PointSet>,
-    /// Other columns of the file that the points come from.
-    pub columns: Columns,
 }
 
 /// More threads than this for each core only get in each other's way.
@@ -66,7 +62,7 @@ impl<'a> Session<'a> {
         if report.as_ref().is_some_and(|report| report.is_same(&output)) {
             bail!("{}: the points and the report cannot go to the same file", output.name());
         }
-        let draw = args.draw.iter().flatten().map(|&layer| layer.into()).collect::<Vec<Draw>>();
+        let draw = args.draw.clone().unwrap_or_default();
         let cancel = CancelToken::default();
         Ok(Self {
             args,
@@ -78,14 +74,12 @@ impl<'a> Session<'a> {
             cancel,
             seconds: BTreeMap::new(),
             notes: Vec::new(),
-            optimizer: None,
-            restores_to: None,
-            columns: Columns::default(),
         })
     }
 
     /// Tells the user something, once, and the record.
-    pub fn note(&mut self, note: String) {
+    pub fn note(&mut self, note: &Message) {
+        let note = note.shown(&Flags);
         if self.notes.contains(&note) {
             return;
         }
@@ -95,94 +89,57 @@ impl<'a> Session<'a> {
         self.notes.push(note);
     }
 
-    /// Runs a phase on the session's threads, and takes its time.
-    pub fn time<T: Send>(&mut self, phase: &'static str, work: impl FnOnce() -> T + Send) -> T {
-        let start = Instant::now();
-        let done = self.pool.install(work);
-        *self.seconds.entry(phase).or_default() += start.elapsed().as_secs_f64();
-        done
+    /// Does a job, and shows how far it is.
+    pub fn run(&mut self, job: impl FnOnce(&mut Context) -> Result<PointsOutcome, Error> + Send) -> anyhow::Result<PointsOutcome> {
+        let mut watch = Watch::new("{msg} [{bar:30}] {eta} left", &self.cancel, self.args.quiet);
+        let outcome = watch.run(&self.pool, job)?;
+        self.seconds.extend(watch.seconds());
+        self.notes = watch.told;
+        outcome.notes.iter().for_each(|note| self.note(note));
+        Ok(outcome)
     }
 
-    /// Optimises points, and finishes.
-    pub fn optimize(mut self, mut points: PointSet, optimizer: Box<dyn Optimizer>, is_warped: bool) -> anyhow::Result<u8> {
-        self.seed = self.seed.or(optimizer.seed());
-        let warp = warp_for(&points, &*optimizer, is_warped);
-        let start = (warp.is_some() && optimizer.targets().is_some()).then(|| points.clone());
-        if let Some(warp) = warp {
-            self.time("warp", || warp(&mut points));
-        }
-        if let Some(advice) = optimizer.targets().and_then(|targets| targets.advice(&points)) {
-            self.note(advice);
-        }
-        interrupt::cancels(&self.cancel, self.args.quiet);
-        let bar = bar(self.args.quiet, 1000, "{msg} [{bar:30}] {eta} left");
-        let mut clock = PhaseClock::default();
-        let cancel = self.cancel.clone();
-        let done = self.pool.install(|| {
-            let on_progress = |progress: Progress| {
-                clock.enter(progress.phase);
-                show(&bar, progress);
-            };
-            optimizer.run(&mut points, &mut RunContext::default().on_progress(on_progress).with_cancel(cancel))
-        });
-        bar.finish_and_clear();
-        let report = done?;
-        clock.stop();
-        self.seconds.extend(clock.seconds);
-        for note in notes(&report) {
-            self.note(note);
-        }
-        if let Some(start) = start
-            && !self.cancel.is_cancelled()
-            && self.time("measure", || is_nearer(&start, &points, &report, &*optimizer))
-        {
-            self.note(KEPT.into());
-            points = start;
-        }
-        let method = optimizer.method();
-        self.optimizer = Some(optimizer);
-        self.finish(points, method, Some(report))
-    }
-
-    /// Measures the points, writes them and the record, and says how it went.
-    pub fn finish(mut self, points: PointSet, method: Method, run: Option<Report>) -> anyhow::Result<u8> {
-        let has_targets = self.optimizer.as_ref().is_some_and(|optimizer| optimizer.targets().is_some());
+    /// Measures the points, writes them, with other columns of their file, and the record, and says how it went.
+    pub fn finish(mut self, outcome: &PointsOutcome, columns: Columns) -> anyhow::Result<u8> {
+        let is_asked = !self.args.quiet || self.args.json || self.report.is_some() || outcome.has_targets();
         // Who interrupts does not wait for measures.
-        let is_wanted = (!self.args.quiet || self.args.json || self.report.is_some() || has_targets) && !self.cancel.is_cancelled();
-        let measures = if is_wanted { self.time("measure", || measure(&points)).ok() } else { None };
-        let targets = self.optimizer.as_ref().and_then(|optimizer| optimizer.targets());
-        let unmet = targets.zip(measures.as_ref()).map(|(targets, measures)| targets.unmet(measures));
-        let recipe = record::recipe(self.seed);
+        let is_wanted = is_asked && !self.cancel.is_cancelled();
+        let begin = Instant::now();
+        let measured = is_wanted.then(|| self.pool.install(|| outcome.measured()));
+        if is_wanted {
+            *self.seconds.entry("measure").or_default() += begin.elapsed().as_secs_f64();
+        }
+        let measures = measured.as_ref().and_then(|measured| measured.measures.as_ref());
+        let seed = self.seed.or(outcome.optimizer.as_ref().and_then(|optimizer| optimizer.seed()));
+        let recipe = record::recipe(seed);
         let start = Instant::now();
-        let restored = self.restores_to.as_ref().filter(|_| self.output.format().holds_points());
-        let restored = restored.map(|given| points.restored_to(given)).transpose()?;
-        let written = restored.as_ref().unwrap_or(&points);
-        self.pool.install(|| write_table(written, &self.columns, &self.draw, &recipe, &self.output))?;
+        // Figures are drawn as distances count.
+        let restored = self.output.format().holds_points().then(|| outcome.restored()).transpose().map_err(told)?;
+        let written = restored.as_ref().unwrap_or(&outcome.points);
+        self.pool.install(|| write_table(written, &columns, &self.draw, &recipe, &self.output))?;
         self.seconds.insert("write", start.elapsed().as_secs_f64());
         if !self.args.quiet {
-            self.summarize(&points, run.as_ref(), measures.as_ref());
+            self.summarize(outcome, seed, measured.as_ref());
         }
-        let outcome = run.as_ref().map(|run| run.outcome);
-        let is_unproved = unmet.is_none();
-        let is_forced = outcome == Some(Outcome::Forced);
-        let has_missed = !is_forced && unmet.as_ref().is_some_and(|unmet| !unmet.is_empty());
+        let is_forced = outcome.report.as_ref().is_some_and(|report| report.outcome == Outcome::Forced);
+        let unmet = measured.as_ref().and_then(|measured| measured.unmet.clone());
         for UnmetTarget { name, wanted, measured } in unmet.iter().flatten() {
             let how = if is_forced { "forced" } else { "not reached" };
-            self.note(format!("{how}: {} is {measured:.6}, wanted {wanted}", name.replace('_', " ")));
+            self.note(&format!("{how}: {} is {measured:.6}, wanted {wanted}", name.replace('_', " ")).into());
         }
         let record = Record {
             version: record::VERSION,
             command: record::command(),
-            method: method.name().into(),
-            seed: self.seed,
-            space: self.restores_to.as_ref().unwrap_or(&points).space().clone(),
-            metric: if self.restores_to.is_some() { "unit" } else { "input" },
-            n_points: points.n_points(),
-            parameters: self.optimizer.as_deref().map(record::parameters),
-            run,
+            method: outcome.method.name().into(),
+            seed,
+            space: outcome.space().clone(),
+            metric: if outcome.is_restored() { "unit" } else { "input" },
+            n_points: outcome.points.n_points(),
+            parameters: outcome.optimizer.as_deref().map(record::parameters),
+            run: outcome.report.clone(),
             seconds: self.seconds,
-            angle_bounds_deg: measures.as_ref().and_then(record::certified_angles),
-            measures,
+            angle_bounds_deg: measured.as_ref().and_then(PointsMeasured::certified_angles_deg),
+            measures: measures.cloned(),
             unmet,
             notes: self.notes,
         };
@@ -193,15 +150,13 @@ impl<'a> Session<'a> {
         if self.args.json {
             Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
         }
-        Ok(match outcome {
-            _ if self.cancel.is_cancelled() => interrupt::code(),
-            _ if has_missed => NOT_REACHED,
-            Some(Outcome::IterationLimit | Outcome::LostToRounding) if is_unproved => NOT_REACHED,
-            _ => DONE,
-        })
+        let is_cancelled = self.cancel.is_cancelled();
+        Ok(code(if is_cancelled { Ending::Cancelled } else { outcome.ending(measured.as_ref()) }))
     }
 
-    fn summarize(&self, points: &PointSet, run: Option<&Report>, measures: Option<&Measures>) {
+    fn summarize(&self, outcome: &PointsOutcome, seed: Option<u64>, measured: Option<&PointsMeasured>) {
+        let (points, run) = (&outcome.points, outcome.report.as_ref());
+        let measures: Option<&Measures> = measured.and_then(|measured| measured.measures.as_ref());
         let seconds: f64 = self.seconds.values().sum();
         let steps = if run.is_some_and(|run| run.visits > 0) { "passes" } else { "iterations" };
         let how = match run.map(|run| (run.outcome, run.iterations)) {
@@ -212,7 +167,7 @@ impl<'a> Session<'a> {
             Some((Outcome::Cancelled, n)) => format!(", interrupted after {n} {steps}"),
             Some((Outcome::NothingToDo, _)) | None => String::new(),
         };
-        let seed = self.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
+        let seed = seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
         say(format_args!("{}: {} points{seed}{how}, {seconds:.2} s", self.output.name(), points.n_points()));
         if let Some(m) = measures {
             let angles = if m.angle_rms_deg.is_nan() {
@@ -226,7 +181,7 @@ impl<'a> Session<'a> {
                 m.min_distance, m.coverage_radius
             ));
         }
-        if let Some([least, most]) = measures.and_then(record::certified_angles).filter(|bounds| bounds[1] <= 90.0) {
+        if let Some([least, most]) = measured.and_then(PointsMeasured::certified_angles_deg).filter(|bounds| bounds[1] <= 90.0) {
             let (which, whose) = if points.space().is_periodic() { ("", "all") } else { (" with its circumcentre inside", "all their") };
             say(format_args!(
                 "certificate: as beta is below 0.7071, no triangle{which} is obtuse; {whose} angles lie within {least:.2} and {most:.2} degrees"
@@ -242,18 +197,6 @@ impl<'a> Session<'a> {
     }
 }
 
-/// A bar on stderr where that is a terminal, and nothing where it is not.
-pub fn bar(is_quiet: bool, length: u64, template: &str) -> ProgressBar {
-    if is_quiet {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(length);
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style.progress_chars("=> "));
-    }
-    bar
-}
-
 /// What a run did.
 fn work(run: &Report) -> String {
     if run.method == "procrustes" {
@@ -266,52 +209,12 @@ fn work(run: &Report) -> String {
     format!("{visits:.1} visits a point, {} flips, {} triangulations", run.flips, run.triangulations)
 }
 
-/// A run's context: the bar shows how far it is; once an optimiser has begun, a signal cancels the run, whose state
-/// is kept. Before, there is nothing to keep.
-pub fn context<'a>(bar: &'a ProgressBar, cancel: &'a CancelToken, is_quiet: bool) -> RunContext<'a> {
-    RunContext::default().with_cancel(cancel.clone()).on_progress(move |progress| {
-        if progress.phase == Phase::Optimize {
-            interrupt::cancels(cancel, is_quiet);
-        }
-        show(bar, progress);
-    })
-}
-
-/// Shows how far a run has come.
-fn show(bar: &ProgressBar, progress: Progress) {
-    let energy = progress.energy.map_or_else(String::new, |energy| format!(", energy {energy:.5}"));
-    bar.set_message(match (progress.phase, progress.stable_share) {
-        (Phase::Separate | Phase::Triangulate, _) => "triangulating".to_owned(),
-        (Phase::Optimize, Some(share)) => format!("pass {}, {:.2} % at rest", progress.iteration, 100.0 * share),
-        (Phase::Optimize, None) => format!("iteration {}{energy}", progress.iteration),
-    });
-    bar.set_position((1000.0 * progress.fraction) as u64);
-}
-
-/// Wall time by phase.
-#[derive(Default)]
-struct PhaseClock {
-    seconds: BTreeMap<&'static str, f64>,
-    current: Option<(&'static str, Instant)>,
-}
-
-impl PhaseClock {
-    fn enter(&mut self, phase: Phase) {
-        let name = match phase {
-            Phase::Separate => "separate",
-            Phase::Triangulate => "triangulate",
-            Phase::Optimize => "optimize",
-        };
-        if self.current.is_none_or(|(current, _)| current != name) {
-            self.stop();
-            self.current = Some((name, Instant::now()));
-        }
-    }
-
-    fn stop(&mut self) {
-        if let Some((name, start)) = self.current.take() {
-            *self.seconds.entry(name).or_default() += Duration::as_secs_f64(&start.elapsed());
-        }
+/// The exit code of a job.
+pub fn code(ending: Ending) -> u8 {
+    match ending {
+        Ending::Done => DONE,
+        Ending::Missed => NOT_REACHED,
+        Ending::Cancelled => interrupt::code(),
     }
 }
 

@@ -2,12 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use evenly::{Density, PointSet, Rectangle, Space, Torus};
-use evenly_io::{Draw, Photograph, Tone, read_polygon, read_positions};
+use evenly::{Density, PointSet, Space};
+use evenly_io::{DensityFile, Draw};
+use evenly_jobs::{Domain, Pixels, Resource};
 
+use crate::files::Files;
 use crate::talk::say;
+use crate::wording::{Flags, told};
 
 #[derive(Args)]
 pub struct SpaceArgs {
@@ -44,13 +48,16 @@ enum Metric {
 }
 
 impl MetricArg {
-    pub fn is_unit(&self) -> bool {
-        self.metric == Metric::Unit
+    pub fn metric(&self) -> evenly_jobs::Metric {
+        match self.metric {
+            Metric::Input => evenly_jobs::Metric::Input,
+            Metric::Unit => evenly_jobs::Metric::Unit,
+        }
     }
 
     /// The points as they are measured.
     pub fn applied(&self, points: PointSet) -> Result<PointSet, evenly::Error> {
-        if self.is_unit() { points.in_unit_square() } else { Ok(points) }
+        if self.metric == Metric::Unit { points.in_unit_square() } else { Ok(points) }
     }
 }
 
@@ -62,7 +69,37 @@ pub struct DensityArgs {
     /// instead), contrast=C (tones are spread from middle grey), gamma=G (raised to this power) and floor=F (the least density, from 0 to 1), with commas between them.
     /// `evenly methods` lists the methods that follow it.
     #[arg(long, value_name = "FILE[:HOW]", value_parser = parse_density, allow_hyphen_values = true)]
-    density: Option<DensitySpec>,
+    density: Option<String>,
+}
+
+/// The words, if they mean something.
+fn parse_density(words: &str) -> Result<String, String> {
+    words.parse::<DensityFile>().map(|_| words.to_owned())
+}
+
+impl DensityArgs {
+    pub fn is_given(&self) -> bool {
+        self.density.is_some()
+    }
+
+    /// What a request calls it.
+    pub fn resource(&self) -> Option<Resource<Pixels>> {
+        self.density.clone().map(Resource::Name)
+    }
+
+    fn file(&self) -> Option<DensityFile> {
+        self.density.as_ref().and_then(|words| words.parse().ok())
+    }
+
+    /// The density; uniform if none is given.
+    pub fn density(&self) -> anyhow::Result<Density> {
+        Ok(self.file().map_or(Ok(Density::uniform()), |file| file.read())?)
+    }
+
+    /// The file, where it is one.
+    pub fn path(&self) -> Option<PathBuf> {
+        self.file().map(|file| file.path)
+    }
 }
 
 #[derive(Args)]
@@ -71,91 +108,7 @@ pub struct FixedArg {
     ///
     /// They are among the N, and come first in the output.
     #[arg(long, value_name = "FILE")]
-    fixed: Option<PathBuf>,
-}
-
-impl FixedArg {
-    /// The points that stay; none, if none are given.
-    pub fn points(&self, space: Space) -> anyhow::Result<PointSet> {
-        let Some(path) = &self.fixed else { return Ok(PointSet::new(space, Vec::new())?) };
-        let positions = read_positions(path)?;
-        let n_fixed = positions.len();
-        let points = PointSet::new(space, positions).and_then(|points| points.with_fixed(n_fixed));
-        points.with_context(|| path.display().to_string())
-    }
-
-    pub fn path(&self) -> Option<&PathBuf> {
-        self.fixed.as_ref()
-    }
-}
-
-/// A picture, and what is made of its tones.
-#[derive(Clone, Debug)]
-struct DensitySpec {
-    path: PathBuf,
-    tone: Tone,
-}
-
-impl DensityArgs {
-    pub fn is_given(&self) -> bool {
-        self.density.is_some()
-    }
-
-    /// The density; uniform if none is given.
-    pub fn density(&self) -> anyhow::Result<Density> {
-        let Some(DensitySpec { path, tone }) = &self.density else { return Ok(Density::uniform()) };
-        Ok(Photograph::read(path)?.density(tone)?)
-    }
-
-    /// The file, where it is one.
-    pub fn path(&self) -> Option<&PathBuf> {
-        self.density.as_ref().map(|spec| &spec.path)
-    }
-}
-
-/// The density of a picture and what is made of its tones, in words.
-pub fn density_of(words: &str) -> anyhow::Result<Density> {
-    let density = parse_density(words).map_err(anyhow::Error::msg)?;
-    DensityArgs { density: Some(density) }.density()
-}
-
-fn parse_density(text: &str) -> Result<DensitySpec, String> {
-    let known = |options: &str| options.split(',').all(|option| ["invert", "contrast", "gamma", "floor"].contains(&name_of(option)));
-    match text.rsplit_once(':') {
-        Some((path, options)) if !path.is_empty() && known(options) => Ok(DensitySpec { path: path.into(), tone: parse_tone(options)? }),
-        Some((path, options)) if Path::new(path).is_file() && !Path::new(text).exists() => {
-            Err(format!("{options:?} is none of invert, contrast=C, gamma=G and floor=F, with commas between them"))
-        }
-        _ if text.is_empty() => Err("it must be a picture's file".into()),
-        _ => Ok(DensitySpec { path: text.into(), tone: Tone::default() }),
-    }
-}
-
-fn name_of(option: &str) -> &str {
-    option.split_once('=').map_or(option, |(name, _)| name)
-}
-
-fn parse_tone(options: &str) -> Result<Tone, String> {
-    let mut tone = Tone::default();
-    let mut seen = Vec::new();
-    for option in options.split(',') {
-        if seen.contains(&name_of(option)) {
-            return Err(format!("{} is there twice", name_of(option)));
-        }
-        seen.push(name_of(option));
-        let number = |is_good: fn(f64) -> bool, expected: &str| {
-            let value = option.split_once('=').and_then(|(_, value)| value.parse::<f64>().ok());
-            value.filter(|&value| is_good(value)).ok_or_else(|| format!("{option:?}: {} must be {expected}", name_of(option)))
-        };
-        match name_of(option) {
-            "invert" if option == "invert" => tone.is_inverted = true,
-            "invert" => return Err(format!("{option:?}: invert takes no value")),
-            "contrast" => tone.contrast = number(|c| (0.0..=100.0).contains(&c), "a number from 0 to 100")?,
-            "gamma" => tone.gamma = number(|g| g > 0.0 && g <= 100.0, "a number above 0, and 100 at most")?,
-            _ => tone.floor = number(|f| (0.0..=1.0).contains(&f), "a number from 0 to 1")?,
-        }
-    }
-    Ok(tone)
+    pub fixed: Option<PathBuf>,
 }
 
 /// What long work takes besides.
@@ -189,65 +142,32 @@ fn parse_space(text: &str) -> Result<SpaceArg, String> {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum DrawArg {
-    /// The points
-    Points,
-    /// The Delaunay triangulation
-    Delaunay,
-    /// The Voronoi diagram
-    Voronoi,
-    /// Voronoi cells coloured by their number of neighbours
-    Valence,
-    /// Voronoi cells coloured by their area
-    Capacity,
-    /// The power spectrum, in log grey
-    Spectrum,
-    /// The radial mean of the power spectrum
-    Radial,
-    /// How much the power differs by direction
-    Anisotropy,
-    /// The pair correlation
-    Correlation,
-    /// The angles of the triangles
-    Angles,
-    /// One page of all of it
-    Report,
-}
-
-impl From<DrawArg> for Draw {
-    fn from(layer: DrawArg) -> Self {
-        match layer {
-            DrawArg::Points => Self::Points,
-            DrawArg::Delaunay => Self::Delaunay,
-            DrawArg::Voronoi => Self::Voronoi,
-            DrawArg::Valence => Self::Valence,
-            DrawArg::Capacity => Self::Capacity,
-            DrawArg::Spectrum => Self::PowerSpectrum,
-            DrawArg::Radial => Self::RadialPower,
-            DrawArg::Anisotropy => Self::Anisotropy,
-            DrawArg::Correlation => Self::PairCorrelation,
-            DrawArg::Angles => Self::Angles,
-            DrawArg::Report => Self::Report,
-        }
-    }
+/// Reads the name of what a figure shows.
+pub fn draw_parser() -> impl TypedValueParser<Value = Draw> {
+    let names = Draw::ALL.iter().map(|&(_, name, doc)| PossibleValue::new(name).help(doc));
+    PossibleValuesParser::new(names).try_map(|name| Draw::named(&name).ok_or("there is nothing of that name"))
 }
 
 impl SpaceArgs {
-    /// The domain, and what was repaired of it.
-    pub fn space(&self) -> anyhow::Result<Space> {
+    /// The domain as requests have it.
+    pub fn domain(&self, files: &mut Files) -> anyhow::Result<Domain> {
         let (origin, size) = (self.origin.unwrap_or([0.0; 2]), self.size.unwrap_or([1.0; 2]));
-        let path = match &self.space {
-            SpaceArg::Torus => return Ok(Torus::new(origin, size)?.into()),
-            SpaceArg::Rect => return Ok(Rectangle::new(origin, size)?.into()),
-            SpaceArg::Polygon(path) => path,
-        };
-        if self.origin.is_some() || self.size.is_some() {
-            bail!("--size and --origin are for torus and rect; {} has its own", path.display());
-        }
-        let polygon = read_polygon(path, None)?;
-        polygon.repairs().iter().for_each(|repair| say(format_args!("note: {}: {repair}", path.display())));
-        Ok(Space::from(&polygon))
+        Ok(match &self.space {
+            SpaceArg::Torus => Domain::Torus { origin, size },
+            SpaceArg::Rect => Domain::Rectangle { origin, size },
+            SpaceArg::Polygon(path) if self.origin.is_some() || self.size.is_some() => {
+                bail!("--size and --origin are for torus and rect; {} has its own", path.display())
+            }
+            SpaceArg::Polygon(path) => Domain::Polygon { polygon: files.name(path) },
+        })
+    }
+
+    /// The domain; what was repaired of it is said.
+    pub fn space(&self) -> anyhow::Result<Space> {
+        let mut files = Files::default();
+        let (space, repairs) = self.domain(&mut files)?.space(&mut files).map_err(told)?;
+        repairs.iter().for_each(|repair| say(format_args!("note: {}", repair.shown(&Flags))));
+        Ok(space)
     }
 
     /// The polygon's file, where it is one.

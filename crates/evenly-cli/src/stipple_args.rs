@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use evenly::Method;
-use evenly_io::{Format, Tone};
+use evenly_io::Format;
+use evenly_jobs::{InkTone, StippleRequest};
 
+use crate::files::Files;
 use crate::method::{ByDensity, MethodArgs, OptimizersByDensity, parser};
 use crate::parse::{parse_count, parse_format, parse_mm};
 use crate::shared_args::LongArgs;
@@ -136,20 +138,31 @@ pub struct ToneArgs {
     white: f64,
 }
 
-impl ToneArgs {
-    /// # Errors
-    /// A number out of its range.
-    pub fn tone(&self) -> anyhow::Result<Tone> {
-        let Self { contrast, gamma, floor, white, .. } = *self;
-        let checks = [
-            ("contrast", contrast, (0.0..=100.0).contains(&contrast), "0 to 100"),
-            ("gamma", gamma, gamma > 0.0 && gamma <= 100.0, "above 0, and 100 at most"),
-            ("floor", floor, (0.0..=1.0).contains(&floor), "0 to 1"),
-            ("white", white, white > 0.0 && white <= 1.0, "above 0, and 1 at most"),
-        ];
-        for (name, value, is_good, expected) in checks {
-            anyhow::ensure!(is_good, "--{name} is {value}; it must be {expected}");
+impl Stipple {
+    /// What is asked for.
+    pub fn request(&self, files: &mut Files) -> StippleRequest {
+        let ToneArgs { invert, contrast, gamma, floor, white } = self.tone;
+        StippleRequest {
+            picture: files.name(&self.input),
+            n_points: self.n_points,
+            method: self.method,
+            parameters: self.method_args.settings(),
+            seed: self.seed,
+            tone: InkTone { invert, contrast, gamma, floor, white },
+            layers: match self.layers {
+                Layers::Black => evenly_jobs::Layers::Black,
+                Layers::Cmyk => evenly_jobs::Layers::Cmyk,
+            },
+            sizes: match self.sizes {
+                Sizes::Constant => evenly_jobs::DotSizes::Constant,
+                Sizes::Tone => evenly_jobs::DotSizes::Tone,
+            },
+            order: match self.order {
+                DrawOrder::Tour => evenly_jobs::DrawOrder::Tour,
+                DrawOrder::Progressive => evenly_jobs::DrawOrder::Progressive,
+                DrawOrder::Input => evenly_jobs::DrawOrder::Input,
+            },
+            is_measured: self.report.is_some(),
         }
-        Ok(Tone { is_inverted: !self.invert, contrast, gamma, floor, cutoff: 1.0 - white })
     }
 }

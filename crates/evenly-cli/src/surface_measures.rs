@@ -12,9 +12,8 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::measuring_args::Analyze;
-use crate::remeshed::surface_of;
 use crate::talk::say;
-use crate::{input, measured, record, session};
+use crate::{files, measured, record, session};
 
 /// The ratio by which angles are certified, if none is given: that of push-pull's targets {0.90, 0.63}.
 const BETA: f64 = 0.63 / 0.90;
@@ -70,13 +69,13 @@ pub fn analyze(args: &Analyze) -> anyhow::Result<u8> {
         bail!("--local is for --spectrum and --plot");
     }
     let plot = args.plot.as_ref().map(|path| Target::figure(path, args.measured.force)).transpose()?;
-    input::require_one_stdin([Some(path), args.reference.as_ref()].into_iter().flatten())?;
+    files::require_one_stdin([Some(path), args.reference.as_ref()].into_iter().flatten())?;
     let pool = session::pool(args.measured.threads, false)?;
     let read = read_triangles_or_points(path)?;
     let mut notes = Vec::new();
     let mut reference_of = |path: &PathBuf| {
         let read = read_triangles(path)?;
-        let reference = surface_of(&read.mesh, path, true)?;
+        let reference = Surface::repaired(&read.mesh).with_context(|| path.display().to_string())?;
         notes.extend(read.notes.iter().chain(reference.notes()).map(|note| format!("{}: {note}", path.display())));
         anyhow::Ok(reference)
     };

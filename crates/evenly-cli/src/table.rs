@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::bail;
 
-use crate::comparison::{Comparison, shown};
+use crate::comparison::{Comparison, numbers, shown, spread};
 use crate::page::page;
 
 /// A kind of table.
@@ -49,7 +49,7 @@ fn text(comparison: &Comparison) -> String {
     let names = comparison.names();
     for columns in comparison.columns.chunks(ABREAST) {
         let heads = columns.iter().map(|column| column.method.clone());
-        let rows = names.iter().map(|name| (name.clone(), columns.iter().map(|column| shown(column.spread(name))).collect()));
+        let rows = names.iter().map(|name| (name.clone(), columns.iter().map(|column| shown(spread(column, name))).collect()));
         let rows: Vec<(String, Vec<String>)> = std::iter::once((String::new(), heads.collect())).chain(rows).collect();
         text.push('\n');
         for (name, cells) in rows {
@@ -69,7 +69,7 @@ fn markdown(comparison: &Comparison) -> String {
     let heads: Vec<&str> = comparison.columns.iter().map(|column| column.method.as_str()).collect();
     let _ = writeln!(text, "| | {} |\n|---|{}", heads.join(" | "), "---:|".repeat(heads.len()));
     for name in comparison.names() {
-        let cells: Vec<String> = comparison.columns.iter().map(|column| shown(column.spread(&name))).collect();
+        let cells: Vec<String> = comparison.columns.iter().map(|column| shown(spread(column, &name))).collect();
         let _ = writeln!(text, "| `{name}` | {} |", cells.join(" | "));
     }
     text
@@ -81,7 +81,7 @@ fn csv(comparison: &Comparison) -> String {
     let mut text = format!("method,seed,{}\n", names.join(","));
     for column in &comparison.columns {
         for run in &column.runs {
-            let numbers = run.numbers();
+            let numbers = numbers(run);
             let cell =
                 |name: &String| numbers.iter().find(|(known, _)| known == name).map_or_else(String::new, |(_, number)| number.to_string());
             let cells: Vec<String> = names.iter().map(cell).collect();

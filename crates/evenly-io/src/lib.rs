@@ -3,6 +3,7 @@
 //! A file is written whole or not at all; an error names the file, the line and the value.
 
 mod clouds;
+mod density;
 mod drawing;
 mod error;
 mod figure;
@@ -26,6 +27,7 @@ mod text;
 mod tiff;
 
 pub use clouds::{CloudFormat, write_cloud};
+pub use density::DensityFile;
 pub use drawing::{Drawing, Layer, Marks};
 pub use error::Error;
 pub use figure::{Axis, Curve, Draw, Subject, chart, compared_svg, figure, picture};

@@ -4,12 +4,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use evenly::{CancelToken, Phase, Progress, RunContext};
+use evenly::{CancelToken, Phase, Progress};
+use evenly_jobs::{Context, Error, Event};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::answer::Answer;
+use crate::answer::{Answer, Keywords};
 
 create_exception!(_evenly, Stopped, PyKeyboardInterrupt, "A job was interrupted; the argument is a `Pending`.");
 
@@ -88,7 +89,7 @@ pub struct Terms {
 pub fn run(
     py: Python,
     Terms { threads, callback }: Terms,
-    work: impl FnOnce(&mut RunContext, &CancelToken) -> anyhow::Result<Answer> + Send + 'static,
+    work: impl FnOnce(&mut Context) -> Result<Answer, Error> + Send + 'static,
 ) -> PyResult<Py<PyAny>> {
     let (desk, cancel) = (Desk::default(), CancelToken::default());
     let (theirs, token) = (desk.clone(), cancel.clone());
@@ -97,7 +98,8 @@ pub fn run(
         pool.install(|| {
             let mut raised = None;
             let done = {
-                let on_progress = |progress: Progress| {
+                let watch = |event: Event| {
+                    let Event::Progress(progress) = event else { return };
                     if let Some(callback) = callback.as_ref().filter(|_| progress.phase == Phase::Optimize && progress.iteration > 0) {
                         match goes_on(callback, progress) {
                             Ok(true) => {}
@@ -109,12 +111,11 @@ pub fn run(
                         }
                     }
                 };
-                let mut context = RunContext::default().with_cancel(token.clone()).on_progress(on_progress);
-                work(&mut context, &token)
+                work(&mut Context::watched(watch).with_cancel(token.clone()))
             };
             match raised {
                 Some(error) => Err(Failure::Raised(error)),
-                None => done.map_err(|error| Failure::Value(in_python(&format!("{error:#}")))),
+                None => done.map_err(|error| Failure::Value(error.message().shown(&Keywords))),
             }
         })
     };
@@ -157,19 +158,4 @@ fn goes_on(callback: &Py<PyAny>, progress: Progress) -> PyResult<bool> {
 fn told(fault: &(dyn std::any::Any + Send)) -> String {
     let text = fault.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| fault.downcast_ref::<String>().cloned()).unwrap_or_default()
-}
-
-/// A message about flags as one about arguments: `--min-distance` is `min_distance` there.
-fn in_python(message: &str) -> String {
-    let mut parts = message.split("--");
-    let mut text = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let end = part.find(|c: char| !(c.is_ascii_lowercase() || c == '-')).unwrap_or(part.len());
-        text.push_str(&part[..end].replace('-', "_"));
-        // The name of a value.
-        let rest = &part[end..];
-        let named = rest.strip_prefix(" <").and_then(|rest| rest.split_once('>'));
-        text.push_str(named.map_or(rest, |(_, after)| after));
-    }
-    text.replace("n_points", "n").replace("n_vertices", "n")
 }

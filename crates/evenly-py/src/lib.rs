@@ -2,11 +2,12 @@
 
 mod answer;
 mod arrays;
+mod data;
 mod job;
+mod jobs;
 mod meshes;
 mod points;
 mod spaces;
-mod stipples;
 mod surfaces;
 
 use std::ffi::OsString;
@@ -18,8 +19,7 @@ fn _evenly(module: &Bound<PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("Stopped", module.py().get_type::<job::Stopped>())?;
     module.add_class::<job::Pending>()?;
-    module.add_function(wrap_pyfunction!(points::generate, module)?)?;
-    module.add_function(wrap_pyfunction!(points::optimize, module)?)?;
+    module.add_function(wrap_pyfunction!(jobs::perform, module)?)?;
     module.add_function(wrap_pyfunction!(points::measure, module)?)?;
     module.add_function(wrap_pyfunction!(points::power_spectrum, module)?)?;
     module.add_function(wrap_pyfunction!(points::radial_spectrum, module)?)?;
@@ -29,15 +29,11 @@ fn _evenly(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(spaces::polygon, module)?)?;
     module.add_function(wrap_pyfunction!(spaces::read_polygon, module)?)?;
     module.add_function(wrap_pyfunction!(spaces::read_regions, module)?)?;
-    module.add_function(wrap_pyfunction!(meshes::mesh, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::write_mesh, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::mesh_figure, module)?)?;
-    module.add_function(wrap_pyfunction!(surfaces::remesh, module)?)?;
-    module.add_function(wrap_pyfunction!(surfaces::sample, module)?)?;
     module.add_function(wrap_pyfunction!(surfaces::surface_spectrum, module)?)?;
     module.add_function(wrap_pyfunction!(surfaces::write_surface, module)?)?;
     module.add_function(wrap_pyfunction!(surfaces::surface_figure, module)?)?;
-    module.add_function(wrap_pyfunction!(stipples::stipple, module)?)?;
     module.add_function(wrap_pyfunction!(methods, module)?)?;
     module.add_function(wrap_pyfunction!(command, module)?)?;
     Ok(())
@@ -46,7 +42,7 @@ fn _evenly(module: &Bound<PyModule>) -> PyResult<()> {
 /// All methods and what they can be told, as JSON.
 #[pyfunction]
 fn methods() -> String {
-    evenly_cli::methods().to_string()
+    evenly_jobs::registry().to_string()
 }
 
 /// The command line; returns its exit code.

@@ -1,78 +1,19 @@
-//! Meshes of polygons.
+//! Meshes of polygons: written, and drawn.
 
 use std::path::PathBuf;
 
-use evenly::{EdgeKind, Mesh, MeshEdge, MeshRegion, Polygon, Shape};
-use evenly_cli::meshed::{Given, Names, meshed, wishes};
+use evenly::{EdgeKind, Mesh, MeshEdge};
 use evenly_io::{MeshFormat, Target};
 use pyo3::prelude::*;
 
-use crate::answer::{answer, json, value_error};
-use crate::arrays::{Integers, Rows, array, indices, numbers, rows};
-use crate::job::{Terms, run};
-use crate::spaces::{DensityArg, Rings, density};
-
-/// Vertices, triangles, the edges that had to be, what each is part of, and the rest as JSON, the regions of
-/// triangles and so many of these in corners. Without rings, the polygon is what the regions cover together.
-#[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "the package's wrappers name them all")]
-pub fn mesh(
-    py: Python,
-    rings: Rings,
-    words: Vec<String>,
-    fixed: Rows,
-    lines: Vec<Rows>,
-    sizes: Option<Rows>,
-    regions: Vec<(String, Rings)>,
-    wanted: Option<DensityArg>,
-    threads: Option<usize>,
-    callback: Option<Py<PyAny>>,
-) -> PyResult<Py<PyAny>> {
-    let region = |(name, rings): &(String, Rings)| {
-        let told = |e| value_error(format!("region {name:?}: {e}"));
-        Ok(MeshRegion { name: name.clone(), polygon: Polygon::from_rings(rings.clone()).map_err(told)? })
-    };
-    let (polygon, regions) = py.detach(|| {
-        let shapes: Vec<Shape> = regions.iter().map(|(_, rings)| Shape { rings: rings.clone(), ..Shape::default() }).collect();
-        let polygon = if rings.is_empty() { Polygon::of_shapes(&shapes) } else { Polygon::from_rings(rings) };
-        let regions = regions.iter().map(region).collect::<PyResult<Vec<MeshRegion>>>()?;
-        Ok::<_, PyErr>((polygon.map_err(value_error)?, regions))
-    })?;
-    let given = Given {
-        fixed: rows(&fixed)?,
-        lines: lines.iter().map(rows).collect::<PyResult<_>>()?,
-        regions,
-        sizes: sizes.as_ref().map(rows).transpose()?,
-        density: wanted.map(|wanted| density(py, Some(wanted))).transpose()?,
-    };
-    run(py, Terms { threads, callback }, move |context, _| {
-        let names = Names { polygon: "the polygon".as_ref(), fixed: "fixed".as_ref(), lines: "lines".as_ref() };
-        let wishes = wishes(&words)?;
-        let made = meshed(&polygon, names, &wishes, given, context)?;
-        let measured = made.measured(&wishes);
-        let unmet: Vec<String> = measured.unmet.iter().map(ToString::to_string).collect();
-        let notes: Vec<&String> = made.report.notes.iter().chain(&measured.notes).collect();
-        let said = json(&serde_json::json!({
-            "quality": measured.quality, "run": made.report, "notes": notes, "unmet": unmet,
-            "region_names": made.mesh.region_names, "n_in_corners": made.mesh.n_in_corners,
-        }))?;
-        let Mesh { vertices, triangles, edges, sizes, regions, .. } = made.mesh;
-        answer(move |py| {
-            let ends = edges.iter().map(|edge| edge.ends.map(|v| v as i64)).collect();
-            let triangles = triangles.iter().map(|corners| corners.map(|v| v as i64)).collect();
-            let regions = regions.iter().map(|&region| if region == u32::MAX { -1 } else { i64::from(region) });
-            let (tags, regions) = (numbers(py, edges.iter().map(tag).collect()), numbers(py, regions.collect()));
-            let whole = (array(py, vertices)?, array(py, triangles)?, array(py, ends)?, tags, said, sizes, regions);
-            Ok(whole.into_pyobject(py)?.into_any().unbind())
-        })
-    })
-}
+use crate::answer::value_error;
+use crate::arrays::{Integers, Rows, indices, rows};
 
 /// What lies between two regions.
 const BETWEEN: i64 = i64::MIN;
 
 /// A segment of the border as 0, 1, ..., a line as -1, -2, ...
-fn tag(edge: &MeshEdge) -> i64 {
+pub fn tag(edge: &MeshEdge) -> i64 {
     match edge.kind {
         EdgeKind::Border { segment } => segment as i64,
         EdgeKind::Line { line } => -1 - line as i64,

@@ -1,80 +1,21 @@
-//! Points: made, made better, and measured.
+//! Points: measured, and drawn.
 
 use evenly::{PointSet, RadialSpectrum};
-use evenly_cli::wishes::{Made, Wishes};
 use evenly_io::{Draw, Subject};
-use numpy::PyUntypedArrayMethods as _;
+use evenly_jobs::Error;
 use pyo3::prelude::*;
 
-use crate::answer::{Answer, answer, json, value_error};
+use crate::answer::{answer, value_error};
 use crate::arrays::{Rows, array, numbers, rows};
 use crate::job::{Terms, run};
 use crate::spaces::{DensityArg, SpaceArg, measured_set, point_set};
-
-/// Positions, and the report as JSON.
-fn made(made: Made) -> anyhow::Result<Answer> {
-    let said = json(&serde_json::json!({ "run": made.report, "notes": made.notes, "unmet": made.unmet }))?;
-    let positions = made.points.into_positions();
-    answer(move |py| Ok((array(py, positions)?, said).into_pyobject(py)?.into_any().unbind()))
-}
-
-#[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "the package's wrappers name them all")]
-pub fn generate(
-    py: Python,
-    n: Option<usize>,
-    fixed: Rows,
-    space: SpaceArg,
-    density: Option<DensityArg>,
-    words: Vec<String>,
-    threads: Option<usize>,
-    callback: Option<Py<PyAny>>,
-) -> PyResult<Py<PyAny>> {
-    let n_fixed = fixed.shape()[0];
-    let is_unit = space.is_unit();
-    let given = point_set(py, &fixed, space, density, n_fixed)?;
-    run(py, Terms { threads, callback }, move |context, _| {
-        let wishes = Wishes::parse(&words)?;
-        if is_unit {
-            made(wishes.generate(&given.in_unit_square()?, n, context)?.restored_to(&given)?)
-        } else {
-            made(wishes.generate(&given, n, context)?)
-        }
-    })
-}
-
-#[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "the package's wrappers name them all")]
-pub fn optimize(
-    py: Python,
-    points: Rows,
-    fixed: Rows,
-    space: SpaceArg,
-    density: Option<DensityArg>,
-    words: Vec<String>,
-    threads: Option<usize>,
-    callback: Option<Py<PyAny>>,
-) -> PyResult<Py<PyAny>> {
-    let n_fixed = fixed.shape()[0];
-    let is_unit = space.is_unit();
-    let given = point_set(py, &fixed, space, density, n_fixed)?;
-    let points = PointSet::new(given.space(), rows(&points)?).map_err(value_error)?;
-    run(py, Terms { threads, callback }, move |context, _| {
-        let wishes = Wishes::parse(&words)?;
-        if is_unit {
-            made(wishes.optimize(&given.in_unit_square()?, points.in_unit_square()?, context)?.restored_to(&given)?)
-        } else {
-            made(wishes.optimize(&given, points, context)?)
-        }
-    })
-}
 
 /// All measures, as JSON.
 #[pyfunction]
 pub fn measure(py: Python, points: Rows, space: SpaceArg, density: Option<DensityArg>, threads: Option<usize>) -> PyResult<Py<PyAny>> {
     let points = measured_set(py, &points, space, density)?;
-    run(py, Terms { threads, callback: None }, move |_, _| {
-        let said = json(&evenly::measure(&points)?)?;
+    run(py, Terms { threads, callback: None }, move |_| {
+        let said = serde_json::json!(evenly::measure(&points)?).to_string();
         answer(move |py| Ok(said.into_pyobject(py)?.into_any().unbind()))
     })
 }
@@ -83,7 +24,7 @@ pub fn measure(py: Python, points: Rows, space: SpaceArg, density: Option<Densit
 #[pyfunction]
 pub fn power_spectrum(py: Python, sets: Vec<Rows>, space: SpaceArg, max_frequency: f64, threads: Option<usize>) -> PyResult<Py<PyAny>> {
     let sets = all(&sets, space)?;
-    run(py, Terms { threads, callback: None }, move |_, _| {
+    run(py, Terms { threads, callback: None }, move |_| {
         let spectrum = evenly::power_spectrum(&sets, max_frequency)?;
         let [half_width, half_height] = spectrum.half_size().map(|n| n as i64);
         let plane = (-half_height..=half_height).flat_map(|b| (-half_width..=half_width).map(move |a| (a, b)));
@@ -106,7 +47,7 @@ pub fn power_spectrum(py: Python, sets: Vec<Rows>, space: SpaceArg, max_frequenc
 #[pyfunction]
 pub fn radial_spectrum(py: Python, sets: Vec<Rows>, space: SpaceArg, threads: Option<usize>) -> PyResult<Py<PyAny>> {
     let sets = all(&sets, space)?;
-    run(py, Terms { threads, callback: None }, move |_, _| {
+    run(py, Terms { threads, callback: None }, move |_| {
         let radial = evenly::radial_spectrum(&sets)?;
         answer(move |py| Ok(radial_arrays(py, radial).into_pyobject(py)?.into_any().unbind()))
     })
@@ -134,7 +75,7 @@ fn all(sets: &[Rows], space: SpaceArg) -> PyResult<Vec<PointSet>> {
 #[pyfunction]
 pub fn triangles(py: Python, points: Rows, space: SpaceArg, threads: Option<usize>) -> PyResult<Py<PyAny>> {
     let points = point_set(py, &points, space, None, 0)?;
-    run(py, Terms { threads, callback: None }, move |_, _| {
+    run(py, Terms { threads, callback: None }, move |_| {
         let corners: Vec<[f64; 2]> = evenly::tessellate(&points)?.corners.into_iter().flatten().collect();
         answer(move |py| array(py, corners))
     })
@@ -144,8 +85,9 @@ pub fn triangles(py: Python, points: Rows, space: SpaceArg, threads: Option<usiz
 #[pyfunction]
 pub fn figure(py: Python, points: Rows, space: SpaceArg, density: Option<DensityArg>, draw: Vec<String>) -> PyResult<Py<PyAny>> {
     let points = measured_set(py, &points, space, density)?;
-    run(py, Terms { threads: None, callback: None }, move |_, _| {
-        let draw: Vec<Draw> = draw.iter().map(|name| evenly_cli::draw(name)).collect::<Result<_, _>>()?;
+    run(py, Terms { threads: None, callback: None }, move |_| {
+        let unknown = |name: &str| Error::Resource(format!("nothing to draw has the name {name:?}"));
+        let draw = draw.iter().map(|name| Draw::named(name).ok_or_else(|| unknown(name))).collect::<Result<Vec<_>, _>>()?;
         let svg = evenly_io::figure(&Subject::from(&points), &draw, "")?;
         answer(move |py| Ok(svg.into_pyobject(py)?.into_any().unbind()))
     })
@@ -154,7 +96,7 @@ pub fn figure(py: Python, points: Rows, space: SpaceArg, density: Option<Density
 /// A figure as PNG.
 #[pyfunction]
 pub fn rendered(py: Python, svg: String) -> PyResult<Py<PyAny>> {
-    run(py, Terms { threads: None, callback: None }, move |_, _| {
+    run(py, Terms { threads: None, callback: None }, move |_| {
         let png = evenly_io::rendered(&svg)?;
         answer(move |py| Ok(pyo3::types::PyBytes::new(py, &png).into_any().unbind()))
     })

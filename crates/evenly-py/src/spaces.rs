@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use evenly::{Density, PointSet, Polygon, Rectangle, Space, Torus};
+use evenly_io::DensityFile;
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods as _};
 use pyo3::prelude::*;
 
@@ -48,7 +49,10 @@ impl SpaceArg {
 pub fn density(py: Python, density: Option<DensityArg>) -> PyResult<Density> {
     match density {
         None => Ok(Density::uniform()),
-        Some(DensityArg::Words(words)) => py.detach(|| evenly_cli::density(&words)).map_err(|error| value_error(format!("{error:#}"))),
+        Some(DensityArg::Words(words)) => {
+            let file: DensityFile = words.parse().map_err(|error| value_error(format!("density: {error}")))?;
+            py.detach(|| file.read()).map_err(value_error)
+        }
         Some(DensityArg::Pixels(pixels)) => {
             let [height, width] = [0, 1].map(|axis| pixels.shape()[axis]);
             let values = pixels.as_slice().map_err(value_error)?.to_vec();

@@ -4,7 +4,9 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use serde::ser::{Serialize, Serializer};
+use serde::de::{self, Deserializer, Visitor};
+use serde::ser::Serializer;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
@@ -36,6 +38,47 @@ impl Serialize for Setting {
     }
 }
 
+/// As a plain value; `null`, `false` and `"off"` are off.
+impl<'de> Deserialize<'de> for Setting {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Plain;
+
+        impl Visitor<'_> for Plain {
+            type Value = Setting;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number, a name, true or false, or off")
+            }
+
+            fn visit_f64<E: de::Error>(self, number: f64) -> Result<Setting, E> {
+                Ok(Setting::Number(number))
+            }
+
+            fn visit_u64<E: de::Error>(self, count: u64) -> Result<Setting, E> {
+                Ok(usize::try_from(count).map_or(Setting::Number(count as f64), Setting::Count))
+            }
+
+            fn visit_i64<E: de::Error>(self, number: i64) -> Result<Setting, E> {
+                Ok(Setting::Number(number as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, name: &str) -> Result<Setting, E> {
+                Ok(if name == "off" { Setting::Off } else { Setting::Choice(name.to_owned()) })
+            }
+
+            fn visit_bool<E: de::Error>(self, is_on: bool) -> Result<Setting, E> {
+                Ok(if is_on { Setting::On } else { Setting::Off })
+            }
+
+            fn visit_unit<E: de::Error>(self) -> Result<Setting, E> {
+                Ok(Setting::Off)
+            }
+        }
+
+        deserializer.deserialize_any(Plain)
+    }
+}
+
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
@@ -49,7 +92,8 @@ impl fmt::Display for Setting {
 }
 
 /// Values by the names of parameters.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Settings(BTreeMap<String, Setting>);
 
 impl Settings {
@@ -74,6 +118,11 @@ impl Settings {
     /// What a parameter is set to.
     pub fn get(&self, name: &str) -> Option<&Setting> {
         self.0.get(name)
+    }
+
+    /// Whether nothing is set.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     /// The names of all that is set.
@@ -242,10 +291,13 @@ impl<P: Clone> Parameter<P> {
         }
     }
 
+    /// Sets it; a count is a number too.
+    ///
     /// # Errors
     /// [`Error::InvalidParameter`] for a value of another kind.
     pub fn set(&self, params: &mut P, value: &Setting) -> Result<(), Error> {
         match (&self.field, value) {
+            (_, &Setting::Count(count)) if self.is_number() => return self.set(params, &Setting::Number(count as f64)),
             (Field::Number(field), Setting::Number(number)) => *field(params) = *number,
             (Field::OwnNumber(field) | Field::Target(field), Setting::Number(number)) => *field(params) = Some(*number),
             (Field::Target(field), Setting::Off) => *field(params) = None,
@@ -257,6 +309,10 @@ impl<P: Clone> Parameter<P> {
             _ => return Err(self.invalid(value)),
         }
         Ok(())
+    }
+
+    fn is_number(&self) -> bool {
+        matches!(self.about.kind, ParameterKind::Number | ParameterKind::Target)
     }
 
     fn choices(&self) -> &'static [Choice] {

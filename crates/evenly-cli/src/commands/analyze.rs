@@ -6,13 +6,13 @@ use anyhow::{Context as _, bail};
 use evenly::{
     Measures, PointSet, PowerSpectrum, RadialSpectrum, differential_spectrum, local_spacings, measure, power_spectrum, radial_spectrum,
 };
-use evenly_io::{Draw, Subject, Target, write_figure};
+use evenly_io::{Subject, Target, write_figure};
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::measured::{self, fields, line, shown};
 use crate::measuring_args::Analyze;
-use crate::{input, record, session, surface_measures};
+use crate::{files, record, session, surface_measures};
 
 pub fn run(args: &Analyze) -> anyhow::Result<u8> {
     if args.reference.is_some() || args.inputs.iter().any(|path| surface_measures::is_in_space(path)) {
@@ -32,22 +32,21 @@ pub fn run(args: &Analyze) -> anyhow::Result<u8> {
     if args.density.is_given() && args.inputs.len() > 1 && (args.spectrum || plot.is_some()) {
         bail!("--density with --spectrum or --plot is for one set");
     }
-    input::require_one_stdin(args.inputs.iter().chain(args.density.path()).chain(args.space.path()))?;
+    files::require_one_stdin(args.inputs.iter().chain(&args.density.path()).chain(args.space.path()))?;
     let density = args.density.density()?;
-    let read = |path: &PathBuf| Ok(args.metric.applied(input::read_and_tell(path, &space)?.with_density(&density))?);
+    let read = |path: &PathBuf| Ok(args.metric.applied(files::read_points(path, &space)?.with_density(&density))?);
     let sets: Vec<PointSet> = args.inputs.iter().map(read).collect::<anyhow::Result<_>>()?;
     let is_local = args.local || args.density.is_given();
     let pool = session::pool(args.measured.threads, false)?;
     let names = || args.inputs.iter().map(|path| path.display().to_string());
     let measured = names().zip(&sets).map(|(name, points)| Ok((name.clone(), pool.install(|| measure(points)).context(name)?)));
     let measured: Vec<(String, Measures)> = measured.collect::<anyhow::Result<_>>()?;
-    let parts: Vec<Draw> = args.draw.iter().map(|&part| part.into()).collect();
     let spectrum = if args.spectrum { Some(pool.install(|| Spectrum::of(&sets, is_local))) } else { None };
     let spectrum = spectrum.transpose().with_context(|| names().collect::<Vec<_>>().join(", "))?;
     if let Some(plot) = &plot {
         let (radial, power) = (spectrum.as_ref().map(|s| &s.radial), spectrum.as_ref().and_then(|s| s.power.as_ref()));
         let subject = Subject { sets: &sets, name: &title(args), is_local, most_points: None, radial, power };
-        pool.install(|| write_figure(&subject, &parts, &record::recipe(None), plot)).with_context(|| plot.name())?;
+        pool.install(|| write_figure(&subject, &args.draw, &record::recipe(None), plot)).with_context(|| plot.name())?;
     }
     let found = Found { measured, spectrum };
     measured::print(&found.json(), args.measured.json, || found.table())

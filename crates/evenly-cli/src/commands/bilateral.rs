@@ -7,7 +7,7 @@ use evenly::{BilateralParams, bilateral, subsampled_bilateral};
 use evenly_io::{Target, read_image, write_image};
 
 use crate::measuring_args::Bilateral;
-use crate::{input, measured, record, session};
+use crate::{files, measured, record, session};
 
 pub fn run(args: &Bilateral) -> anyhow::Result<u8> {
     let target = |path: &Option<PathBuf>| path.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose();
@@ -15,9 +15,9 @@ pub fn run(args: &Bilateral) -> anyhow::Result<u8> {
     if output.as_ref().zip(full.as_ref()).is_some_and(|(output, full)| output.is_same(full)) {
         bail!("--output and --full are the same file");
     }
-    input::require_one_stdin([&args.input, &args.samples])?;
+    files::require_one_stdin([&args.input, &args.samples])?;
     let image = read_image(&args.input)?;
-    let samples = input::read_and_tell(&args.samples, &args.space.space()?)?;
+    let samples = files::read_points(&args.samples, &args.space.space()?)?;
     let params = BilateralParams { kernel_px: args.kernel, range: args.range, n_samples: args.count };
     let pool = session::pool(args.measured.threads, false)?;
     let told = |e| measured::told(e, &args.samples, &[("kernel_px", "kernel"), ("n_samples", "count")]);

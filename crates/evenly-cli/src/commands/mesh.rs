@@ -3,18 +3,18 @@
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, MeshQuality, MeshRegion, Report, mesh_cells};
-use evenly_io::{
-    MeshFormat, Target, encode_mesh, encode_polygons, read_lines, read_polygon, read_positions, read_regions, read_rows, write_together,
-};
+use evenly::{CancelToken, MeshQuality, Report, mesh_cells};
+use evenly_io::{MeshFormat, Target, encode_mesh, encode_polygons, write_together};
+use evenly_jobs::{Ending, UnmetAngle};
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::files::{Files, require_one_stdin};
 use crate::mesh_args::Mesh;
-use crate::meshed::{Given, Names, meshed};
 use crate::talk::say;
-use crate::unmet::Unmet;
-use crate::{input, interrupt, record, session};
+use crate::watch::Watch;
+use crate::wording::{Flags, told};
+use crate::{interrupt, record, session};
 
 /// How many places are named where a demand was not met.
 const NAMED: usize = 5;
@@ -22,44 +22,21 @@ const NAMED: usize = 5;
 pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     let begin = Instant::now();
     let targets = Targets::new(args)?;
-    let wishes = &args.wishes;
-    let inputs = [Some(&args.input), args.sizes.as_ref(), wishes.density.path(), args.fixed.as_ref(), args.lines.as_ref()];
-    input::require_one_stdin(inputs.into_iter().flatten())?;
+    let inputs = [Some(&args.input), args.sizes.as_ref(), args.fixed.as_ref(), args.lines.as_ref()];
+    require_one_stdin(inputs.into_iter().flatten().chain(&args.wishes.density.path()))?;
     if let Some(tolerance) = args.curve_tolerance.filter(|&tolerance| !(tolerance > 0.0 && tolerance.is_finite())) {
         bail!("--curve-tolerance is {tolerance}; it must be positive and finite");
     }
+    let mut files = Files::default();
+    let request = args.request(&mut files);
+    request.check().map_err(told)?;
     let pool = session::pool(args.run.threads, args.run.quiet)?;
-    if args.regions && wishes.simplify.is_some() {
-        bail!("--simplify would part regions that touch; simplify them before, or leave out --regions");
-    }
-    let (polygon, regions) = match args.regions {
-        true => read_regions(&args.input, args.curve_tolerance)?,
-        false => (read_polygon(&args.input, args.curve_tolerance)?, Vec::new()),
-    };
-    let mut notes: Vec<String> = polygon.repairs().to_vec();
-    let given = Given {
-        fixed: args.fixed.as_deref().map(read_positions).transpose()?.unwrap_or_default(),
-        lines: args.lines.as_deref().map(read_lines).transpose()?.unwrap_or_default(),
-        regions: regions.into_iter().map(|(name, polygon)| MeshRegion { name, polygon }).collect(),
-        sizes: args.sizes.as_deref().map(read_rows).transpose()?,
-        density: wishes.density.is_given().then(|| wishes.density.density()).transpose()?,
-    };
-
-    let nameless = std::path::PathBuf::new();
-    let names =
-        Names { polygon: &args.input, fixed: args.fixed.as_ref().unwrap_or(&nameless), lines: args.lines.as_ref().unwrap_or(&nameless) };
     let cancel = CancelToken::default();
-    let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
-    let made = pool.install(|| {
-        let mut context = session::context(&bar, &cancel, args.run.quiet);
-        meshed(&polygon, names, wishes, given, &mut context)
-    });
-    bar.finish_and_clear();
-    let made = made?;
+    let mut watch = Watch::new("{bar:30} {percent}% {msg}", &cancel, args.run.quiet);
+    let made = watch.run(&pool, |context| request.run(&mut files, context))?;
     let mesh = &made.mesh;
-    notes.extend(made.report.notes.iter().cloned());
 
-    let recipe = record::recipe(Some(wishes.seed));
+    let recipe = record::recipe(Some(request.seed));
     let of_mesh = encode_mesh(mesh, targets.format, &recipe, &targets.mesh)?;
     match &targets.cells {
         Some(cells) => write_together(&[(cells, &encode_polygons(&mesh_cells(mesh), &recipe)), (&targets.mesh, &of_mesh)])?,
@@ -67,26 +44,26 @@ pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     }
     interrupt::ends();
     // Who interrupts does not wait for measures.
-    let measured = (!cancel.is_cancelled()).then(|| made.measured(wishes));
-    notes.extend(measured.iter().flat_map(|measured| measured.notes.iter().cloned()));
-    let missed = measured.as_ref().map_or(&[][..], |measured| &measured.unmet);
+    let measured = (!cancel.is_cancelled()).then(|| made.measured());
+    let of_measures = measured.iter().flat_map(|measured| &measured.notes);
+    let notes: Vec<String> = made.notes.iter().chain(of_measures).map(|note| note.shown(&Flags)).collect();
     let quality = measured.as_ref().map(|measured| &measured.quality);
-    let seconds = begin.elapsed().as_secs_f64();
+    let polygon_area = made.polygon.area();
     let record = MeshRecord {
         version: record::VERSION,
         command: record::command(),
-        seed: wishes.seed,
+        seed: request.seed,
         parameters: &made.parameters,
-        polygon_area: polygon.area(),
-        uncovered_area: quality.map(|quality| (polygon.area() - quality.area).abs()),
+        polygon_area,
+        uncovered_area: quality.map(|quality| (polygon_area - quality.area).abs()),
         quality,
-        run: made.report,
-        unmet: missed,
+        run: &made.report,
+        unmet: measured.as_ref().map_or(&[], |measured| &measured.unmet),
         notes: &notes,
-        seconds,
+        seconds: begin.elapsed().as_secs_f64(),
     };
     if !args.run.quiet {
-        summarize(&targets.mesh.name(), &record);
+        summarize(&targets.mesh.name(), &record, &watch.told);
     }
     let text = serde_json::to_string_pretty(&record)? + "\n";
     if let Some(report) = &targets.report {
@@ -95,11 +72,7 @@ pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     if args.json {
         Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
     }
-    Ok(match () {
-        () if cancel.is_cancelled() => interrupt::code(),
-        () if !missed.is_empty() => session::NOT_REACHED,
-        () => session::DONE,
-    })
+    Ok(session::code(if cancel.is_cancelled() { Ending::Cancelled } else { made.ending(measured.as_ref()) }))
 }
 
 /// Where everything goes, checked before the work begins.
@@ -151,14 +124,15 @@ struct MeshRecord<'a> {
     /// By how much the triangles' areas differ from the polygon's; not measured in an interrupted run, as its quality.
     uncovered_area: Option<f64>,
     quality: Option<&'a MeshQuality>,
-    run: Report,
-    unmet: &'a [Unmet],
+    run: &'a Report,
+    unmet: &'a [UnmetAngle],
     notes: &'a [String],
     seconds: f64,
 }
 
-fn summarize(name: &str, record: &MeshRecord) {
-    for note in record.notes {
+/// What was said before is not said again.
+fn summarize(name: &str, record: &MeshRecord, told: &[String]) {
+    for note in record.notes.iter().filter(|note| !told.contains(note)) {
         say(format_args!("note: {note}"));
     }
     let (Some(quality), Some(uncovered_area)) = (record.quality, record.uncovered_area) else {

@@ -3,12 +3,11 @@
 use std::fmt::Write as _;
 
 use anyhow::Context as _;
-use evenly::{About, Method, ParameterKind, Setting};
+use evenly::{Method, ParameterKind};
 use evenly_io::{Format, Target};
-use serde_json::{Value, json};
+use evenly_jobs::{default_of, jobs_of, registry};
 
 use crate::args::Methods;
-use crate::method::{ByDensity, Offered, OnMeshes, OnSurfaces};
 use crate::session::DONE;
 
 pub fn run(args: &Methods) -> anyhow::Result<u8> {
@@ -21,19 +20,6 @@ pub fn run(args: &Methods) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// What a method can do, by the commands' names; `density` where its points follow one.
-fn jobs(method: Method) -> Vec<&'static str> {
-    let points: &[&str] = if method.is_optimizer() { &["generate", "optimize"] } else { &["generate"] };
-    let others = [
-        ("stipple", ByDensity::is_offered(method)),
-        ("mesh", OnMeshes::is_offered(method)),
-        ("remesh", OnMeshes::is_offered(method)),
-        ("sample", OnSurfaces::is_offered(method)),
-        ("density", method.knows_density()),
-    ];
-    points.iter().copied().chain(others.into_iter().filter(|(_, is)| *is).map(|(name, _)| name)).collect()
-}
-
 const COLUMNS: [&str; 7] = ["generate", "optimize", "stipple", "mesh", "remesh", "sample", "density"];
 
 /// All methods in a table, which is Markdown as well.
@@ -42,7 +28,7 @@ pub fn table() -> String {
     COLUMNS.iter().for_each(|column| text += &format!("{}|", "-".repeat(column.len() + 2)));
     text += "---|\n";
     for method in Method::all() {
-        let jobs = jobs(method);
+        let jobs = jobs_of(method);
         let cells = COLUMNS.map(|column| format!("{:^width$}", if jobs.contains(&column) { "x" } else { "" }, width = column.len()));
         let _ = writeln!(text, "| {:<14} | {} | {} |", method.name(), cells.join(" | "), method.title());
     }
@@ -55,7 +41,7 @@ fn one(method: Method) -> String {
     if !method.paper().is_empty() {
         let _ = writeln!(text, "paper: {}", method.paper());
     }
-    let _ = writeln!(text, "for: {}", jobs(method).join(", "));
+    let _ = writeln!(text, "for: {}", jobs_of(method).join(", "));
     for (about, default) in method.parameters() {
         let default = default_of(&about, default.as_ref()).map_or_else(String::new, |default| format!(" [{default}]"));
         let _ = writeln!(text, "  --{:<20} {}{default}", about.name.replace('_', "-"), about.doc);
@@ -67,30 +53,6 @@ fn one(method: Method) -> String {
         }
     }
     text
-}
-
-/// A parameter's value where none is given, in words.
-fn default_of(about: &About, default: Option<&Setting>) -> Option<String> {
-    if about.default.is_empty() { default.map(ToString::to_string) } else { Some(about.default.into()) }
-}
-
-/// All methods, as JSON.
-pub fn registry() -> Value {
-    let parameter = |(about, default): (About, Option<Setting>)| {
-        let (kind, choices) = match about.kind {
-            ParameterKind::Number => ("number", None),
-            ParameterKind::Target => ("target", None),
-            ParameterKind::Count => ("count", None),
-            ParameterKind::Flag => ("flag", None),
-            ParameterKind::Choice(choices) => ("choice", Some(choices.iter().map(|choice| choice.name).collect::<Vec<_>>())),
-        };
-        json!({ "name": about.name, "kind": kind, "choices": choices, "default": default_of(&about, default.as_ref()), "doc": about.doc })
-    };
-    let method = |method: Method| {
-        let parameters: Vec<Value> = method.parameters().into_iter().map(parameter).collect();
-        json!({ "name": method.name(), "title": method.title(), "paper": method.paper(), "jobs": jobs(method), "parameters": parameters })
-    };
-    Method::all().map(method).collect()
 }
 
 #[cfg(test)]

@@ -1,38 +1,26 @@
 //! `evenly optimize`: better points from points.
 
-use anyhow::Context as _;
+use evenly_io::Columns;
+use evenly_jobs::Message;
 
 use crate::args::Optimize;
-use crate::input;
-use crate::memory;
-use crate::method::{by_flag, refuse_beginning, refuse_density};
+use crate::files::{Files, require_one_stdin};
 use crate::session::Session;
+use crate::wording::told;
 
 pub fn run(args: &Optimize) -> anyhow::Result<u8> {
-    args.optimizer.refuse_others(&[args.method])?;
-    refuse_beginning(args.method, false, args.warp.no_warp)?;
-    if args.density.is_given() {
-        refuse_density(args.method)?;
-    }
-    let space = args.space.space()?;
-    let optimizer = args.method.optimizer(&args.optimizer.of(args.method), args.seed).map_err(by_flag)?;
-    let optimizer = optimizer.with_context(|| format!("{} makes points, and improves none", args.method))?;
+    let mut files = Files::default();
+    let request = args.request(&mut files)?;
+    request.check().map_err(told)?;
     let mut session = Session::new(&args.run, None)?;
-    input::require_one_stdin(std::iter::once(&args.input).chain(args.density.path()).chain(args.space.path()).chain(args.fixed.path()))?;
-    let fixed = args.fixed.points(space.clone())?;
-    let (points, note, columns) = session.time("read", || input::read_with_columns(&args.input, &space))?;
-    if fixed.n_points() == 0 {
-        session.columns = columns;
-    } else if !columns.is_empty() {
-        session.note(format!("the columns {} are left out: with --fixed rows have other places", columns.names.join(", ")));
+    let all = std::iter::once(&args.input).chain(args.space.path()).chain(&args.fixed.fixed);
+    require_one_stdin(all.chain(&args.density.path()))?;
+    let outcome = session.run(|context| request.run(&mut files, context))?;
+    // With points that stay, rows have other places.
+    let is_same_rows = outcome.points.n_fixed() == 0;
+    if !is_same_rows && !files.columns.is_empty() {
+        let columns = Message::from(format!("the columns {} are left out: with ", files.columns.names.join(", ")));
+        session.note(&columns.name("fixed").text(" rows have other places"));
     }
-    let points = input::joined(&fixed, points)?;
-    memory::require_points(points.n_points(), args.method)?;
-    let given = points.with_density(&session.time("read", || args.density.density())?);
-    let points = args.metric.applied(given.clone())?;
-    session.restores_to = args.metric.is_unit().then_some(given);
-    if let Some(note) = note {
-        session.note(note);
-    }
-    session.optimize(points, optimizer, !args.warp.no_warp)
+    session.finish(&outcome, if is_same_rows { files.columns } else { Columns::default() })
 }

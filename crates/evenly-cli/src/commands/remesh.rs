@@ -1,18 +1,20 @@
 //! `evenly remesh`: a surface's new mesh.
 
-use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, CertificateBreach, MissedLengths, Report, SurfaceDistance, SurfaceQuality, TriangleMesh};
-use evenly_io::{MeshFormat, Target, read_triangles, round_as_stl, stl_rounding, write_triangles, write_triangles_figure};
+use evenly::{CancelToken, CertificateBreach, MissedLengths, Report, SurfaceDistance, SurfaceQuality};
+use evenly_io::{MeshFormat, Target, round_as_stl, stl_rounding, write_triangles, write_triangles_figure};
+use evenly_jobs::{Ending, Message};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::remesh_args::{Remesh, density_path};
-use crate::remeshed::{Made, notes_on, points, remeshed, sizing, surface_of, welded, with_places};
+use crate::files::{Files, require_one_stdin};
+use crate::remesh_args::Remesh;
 use crate::talk::say;
-use crate::{input, interrupt, record, session};
+use crate::watch::Watch;
+use crate::wording::{Flags, told};
+use crate::{interrupt, record, session};
 
 /// How many places are named where angles are not as the targets imply.
 const NAMED: usize = 5;
@@ -20,69 +22,46 @@ const NAMED: usize = 5;
 pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let begin = Instant::now();
     let targets = Targets::new(args)?;
-    let wishes = &args.wishes;
-    let density: Option<PathBuf> = density_path(wishes.density.as_deref()).map(Into::into);
-    input::require_one_stdin([Some(&args.input), density.as_ref(), wishes.points.as_ref()].into_iter().flatten())?;
+    require_one_stdin(&args.inputs())?;
+    let mut files = Files::default();
+    let request = args.request(&mut files);
+    request.check().map_err(told)?;
     let pool = session::pool(args.run.threads, args.run.quiet)?;
-    let read = read_triangles(&args.input)?;
-    let mut notes = read.notes;
-    let surface = surface_of(&welded(read.mesh, wishes.weld, &mut notes)?, &args.input, wishes.repair)?;
-    notes.extend(notes_on(&surface));
-
-    let (sizing, points) = (sizing(wishes.density.as_deref())?, points(wishes)?);
     let cancel = CancelToken::default();
-    let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
-    let mut warned: Vec<String> = Vec::new();
-    let mut rounding = None;
-    let made = pool.install(|| {
-        let mut context = session::context(&bar, &cancel, args.run.quiet);
-        if !args.run.quiet {
-            context = context.on_warning(|warning| {
-                warned.push(warning.into());
-                bar.suspend(|| say(format_args!("note: {warning}")));
-            });
-        }
-        let round = |mesh: &mut TriangleMesh| {
-            if targets.format == MeshFormat::Stl {
-                rounding = stl_rounding(mesh);
-                round_as_stl(mesh);
-            }
-        };
-        remeshed(&surface, &args.input, wishes, sizing.as_ref(), points, round, &mut context)
-    });
-    bar.finish_and_clear();
-    let made = made?;
-    notes.extend(made.report.notes.iter().cloned());
+    let mut watch = Watch::new("{bar:30} {percent}% {msg}", &cancel, args.run.quiet);
+    let mut made = watch.run(&pool, |context| request.run(&mut files, context))?;
+    // What is measured is what is written.
+    if targets.format == MeshFormat::Stl {
+        made.notes.extend(stl_rounding(&made.remeshed.mesh).map(Message::from));
+        round_as_stl(&mut made.remeshed.mesh);
+    }
 
-    notes.extend(rounding);
-    let recipe = record::recipe(Some(wishes.seed));
-    write_triangles(&with_places(&made.remeshed), targets.format, &recipe, &targets.mesh)?;
+    let recipe = record::recipe(Some(request.seed));
+    write_triangles(&made.with_places(), targets.format, &recipe, &targets.mesh)?;
     if let Some(plot) = &targets.plot {
         write_triangles_figure(&[("", &made.remeshed.mesh)], &recipe, plot)?;
     }
     interrupt::ends();
     // Who interrupts does not wait for measures.
-    let measured = if cancel.is_cancelled() { None } else { Some(pool.install(|| made.measured(&surface))?) };
-    notes.extend(measured.iter().flat_map(|measured| measured.notes.iter().cloned()));
-    let breaches = measured.as_ref().map_or(&[][..], |measured| &measured.breaches);
-    let has_missed = made.has_missed(breaches);
-    let Made { report, parameters, .. } = made;
+    let measured = if cancel.is_cancelled() { None } else { Some(pool.install(|| made.measured()).map_err(told)?) };
+    let of_measures = measured.iter().flat_map(|measured| &measured.notes);
+    let notes: Vec<String> = made.notes.iter().chain(of_measures).map(|note| note.shown(&Flags)).collect();
     let record = RemeshRecord {
         version: record::VERSION,
         command: record::command(),
-        seed: wishes.seed,
-        parameters: &parameters,
+        seed: request.seed,
+        parameters: &made.parameters,
         quality: measured.as_ref().map(|measured| measured.quality),
         distance: measured.as_ref().map(|measured| measured.distance),
         self_intersections: measured.as_ref().map(|measured| measured.self_intersections),
-        run: report,
-        breaches,
+        run: &made.report,
+        breaches: measured.as_ref().map_or(&[], |measured| &measured.breaches),
         missed: measured.as_ref().map_or(&[], |measured| &measured.missed),
         notes: &notes,
         seconds: begin.elapsed().as_secs_f64(),
     };
     if !args.run.quiet {
-        summarize(&targets.mesh.name(), &record, &warned);
+        summarize(&targets.mesh.name(), &record, &watch.told);
     }
     let text = serde_json::to_string_pretty(&record)? + "\n";
     if let Some(report) = &targets.report {
@@ -91,11 +70,7 @@ pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     if args.json {
         Target::any("-".as_ref(), false)?.write(text.as_bytes())?;
     }
-    Ok(match () {
-        () if cancel.is_cancelled() => interrupt::code(),
-        () if has_missed => session::NOT_REACHED,
-        () => session::DONE,
-    })
+    Ok(session::code(if cancel.is_cancelled() { Ending::Cancelled } else { made.ending(measured.as_ref()) }))
 }
 
 /// Where everything goes, checked before the work begins.
@@ -144,7 +119,7 @@ struct RemeshRecord<'a> {
     quality: Option<SurfaceQuality>,
     distance: Option<SurfaceDistance>,
     self_intersections: Option<usize>,
-    run: Report,
+    run: &'a Report,
     /// Triangles whose angles are not what the targets imply, the worst first.
     breaches: &'a [CertificateBreach],
     /// Lengths that are not what was asked for, where the run has not converged.
@@ -154,8 +129,8 @@ struct RemeshRecord<'a> {
 }
 
 /// What was said before is not said again.
-fn summarize(name: &str, record: &RemeshRecord, warned: &[String]) {
-    for note in record.notes.iter().filter(|note| !warned.contains(note)) {
+fn summarize(name: &str, record: &RemeshRecord, told: &[String]) {
+    for note in record.notes.iter().filter(|note| !told.contains(note)) {
         say(format_args!("note: {note}"));
     }
     let (Some(quality), Some(distance), Some(self_intersections)) = (&record.quality, record.distance, record.self_intersections) else {

@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::measuring_args::Reproduce;
 use crate::reproduce::{Done, Lab, STUDIES, html};
 use crate::talk::say;
-use crate::{interrupt, record, session};
+use crate::{interrupt, record, session, watch};
 
 pub fn run(args: &Reproduce) -> anyhow::Result<u8> {
     let study = STUDIES.iter().find(|study| study.name == args.paper).context("no such paper")?;
@@ -26,7 +26,7 @@ pub fn run(args: &Reproduce) -> anyhow::Result<u8> {
     }
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet);
-    let bar = session::bar(args.run.quiet, study.parts.len() as u64, "{prefix} [{bar:20}] {pos} of {len} parts, {elapsed}: {msg}");
+    let bar = watch::bar(args.run.quiet, study.parts.len() as u64, "{prefix} [{bar:20}] {pos} of {len} parts, {elapsed}: {msg}");
     bar.enable_steady_tick(std::time::Duration::from_millis(200));
     let lab = Lab { is_quick: args.quick, cancel, bar, models: args.models.clone() };
     let pool = session::pool(args.run.threads, args.run.quiet)?;

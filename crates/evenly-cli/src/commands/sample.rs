@@ -3,15 +3,17 @@
 use std::time::Instant;
 
 use anyhow::bail;
-use evenly::{CancelToken, Outcome, Report, TriangleMesh};
-use evenly_io::{CloudFormat, Target, read_triangles, write_cloud};
+use evenly::{CancelToken, Report, TriangleMesh};
+use evenly_io::{CloudFormat, Target, write_cloud};
+use evenly_jobs::{Ending, place_attributes};
 use serde::Serialize;
 
-use crate::remesh_args::{Sample, density_path};
-use crate::remeshed::{notes_on, place_attributes, sizing, surface_of, welded};
-use crate::sampled::sampled;
+use crate::files::{Files, require_one_stdin};
+use crate::remesh_args::Sample;
 use crate::talk::say;
-use crate::{input, interrupt, record, session};
+use crate::watch::Watch;
+use crate::wording::{Flags, told};
+use crate::{record, session};
 
 pub fn run(args: &Sample) -> anyhow::Result<u8> {
     let begin = Instant::now();
@@ -29,42 +31,31 @@ pub fn run(args: &Sample) -> anyhow::Result<u8> {
     if args.json && target.is_stdout() {
         bail!("--json and the points cannot both go to stdout; name a file with -o");
     }
-    let wishes = &args.wishes;
+    require_one_stdin(&args.inputs())?;
+    let mut files = Files::default();
+    let request = args.request(&mut files);
+    request.check().map_err(told)?;
     let pool = session::pool(args.run.threads, args.run.quiet)?;
-    let density = density_path(wishes.density.as_deref()).map(Into::into);
-    input::require_one_stdin([Some(&args.input), density.as_ref()].into_iter().flatten())?;
-    let read = read_triangles(&args.input)?;
-    let mut notes = read.notes;
-    let mesh = welded(read.mesh, wishes.weld, &mut notes)?;
-    // Points need no manifold.
-    let surface = surface_of(&mesh, &args.input, wishes.repair).or_else(|_| surface_of(&mesh, &args.input, true))?;
-    let sizing = sizing(wishes.density.as_deref())?;
     let cancel = CancelToken::default();
-    let bar = session::bar(args.run.quiet, 1000, "{bar:30} {percent}% {msg}");
-    let made = pool.install(|| {
-        let mut context = session::context(&bar, &cancel, args.run.quiet);
-        sampled(&surface, &args.input, wishes, sizing.as_ref(), &mut context)
-    });
-    bar.finish_and_clear();
-    let (points, report) = made?;
+    let mut watch = Watch::new("{bar:30} {percent}% {msg}", &cancel, args.run.quiet);
+    let made = watch.run(&pool, |context| request.run(&mut files, context))?;
 
-    let vertices = points.iter().map(|point| point.position).collect();
-    let cloud = TriangleMesh { vertices, triangles: Vec::new(), attributes: place_attributes(&points) };
-    write_cloud(&cloud, format, &record::recipe(Some(wishes.seed)), &target)?;
-    notes.extend(notes_on(&surface));
-    notes.extend(report.notes.iter().cloned());
+    let vertices = made.points.iter().map(|point| point.position).collect();
+    let cloud = TriangleMesh { vertices, triangles: Vec::new(), attributes: place_attributes(&made.points) };
+    write_cloud(&cloud, format, &record::recipe(Some(request.seed)), &target)?;
+    let notes: Vec<String> = made.notes.iter().map(|note| note.shown(&Flags)).collect();
     let record = SampleRecord {
         version: record::VERSION,
         command: record::command(),
-        seed: wishes.seed,
-        n_points: points.len(),
-        area: surface.area(),
-        run: report,
+        seed: request.seed,
+        n_points: made.points.len(),
+        area: made.area,
+        run: &made.report,
         notes: &notes,
         seconds: begin.elapsed().as_secs_f64(),
     };
     if !args.run.quiet {
-        for note in &notes {
+        for note in notes.iter().filter(|note| !watch.told.contains(note)) {
             say(format_args!("note: {note}"));
         }
         say(format_args!("{}: {} points, seed {}, {:.2} s", target.name(), record.n_points, record.seed, record.seconds));
@@ -72,11 +63,7 @@ pub fn run(args: &Sample) -> anyhow::Result<u8> {
     if args.json {
         Target::any("-".as_ref(), false)?.write((serde_json::to_string_pretty(&record)? + "\n").as_bytes())?;
     }
-    Ok(match record.run.outcome {
-        _ if cancel.is_cancelled() => interrupt::code(),
-        Outcome::IterationLimit => session::NOT_REACHED,
-        _ => session::DONE,
-    })
+    Ok(session::code(if cancel.is_cancelled() { Ending::Cancelled } else { made.ending() }))
 }
 
 /// A run's whole record.
@@ -87,7 +74,7 @@ struct SampleRecord<'a> {
     seed: u64,
     n_points: usize,
     area: f64,
-    run: Report,
+    run: &'a Report,
     notes: &'a [String],
     seconds: f64,
 }

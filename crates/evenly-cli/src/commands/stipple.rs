@@ -4,14 +4,18 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use evenly::{CancelToken, Density, PointSet, Rectangle, Space, measure, tessellate};
-use evenly_io::{Drawing, Format, Layer, Marks, Photograph, Target, write_points};
+use evenly::{CancelToken, PointSet, Rectangle, tessellate};
+use evenly_io::{Drawing, Format, Layer, Marks, Target, write_points};
+use evenly_jobs::{DotLayer, Ending, StippleOutcome, ToneReport};
 use serde::Serialize;
 
-use crate::stipple::{Dots, DotsParams, Ink, Paper, ToneReport, Tones, Wanted, dots, edges_of, optimizer, shares};
+use crate::files::Files;
+use crate::stipple::{Paper, edges_of};
 use crate::stipple_args::{DotKind, Stipple};
 use crate::talk::say;
-use crate::{interrupt, memory, record, session};
+use crate::watch::Watch;
+use crate::wording::told;
+use crate::{record, session};
 
 /// The thinnest pen.
 const FINEST_MM: f64 = 0.001;
@@ -27,28 +31,16 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     if args.edges.is_some() && args.n_points < 3 {
         bail!("--n-points is {}; edges take 3 dots or more", args.n_points);
     }
-    memory::require_points(args.n_points, args.method)?;
-    let tone = args.tone.tone()?;
-    // For bad usage, before a long read.
-    args.method_args.refuse_others(&[args.method])?;
-    optimizer(args.method, &args.method_args.of(args.method), args.seed)?;
+    let mut files = Files::default();
+    let request = args.request(&mut files);
+    request.check().map_err(told)?;
     let pool = session::pool(args.run.threads, args.run.quiet)?;
-    let photograph = Photograph::read(&args.input)?;
-    let name = photograph.name();
-    let picture_px = photograph.size();
-    let paper = Paper::new(&args.page, args.margin, picture_px)?;
-    let space: Space = Rectangle::new([0.0, 0.0], picture_px.map(|n| n as f64)).with_context(|| name.to_owned())?.into();
-    let inks = Ink::of(&photograph, &tone, args.layers);
-
     let cancel = CancelToken::default();
-    let mut drawn = Vec::new();
-    // Of each layer another, so that no two put their dots in the same places.
-    let seeds = (0..).map(|layer| args.seed.wrapping_add(layer));
-    for ((ink, n_points), seed) in inks.iter().zip(shares(&inks, args.n_points)).zip(seeds).filter(|((_, n), _)| *n > 0) {
-        let tones = ink.tones(&photograph, &tone, args.sizes)?;
-        let work = || Drawn::new(args, space.clone(), ink, &tones, n_points, seed, &cancel);
-        drawn.push(pool.install(work).with_context(|| name.to_owned())?);
-    }
+    let mut watch = Watch::new("{msg} [{bar:30}] {eta} left", &cancel, args.run.quiet);
+    let name = args.input.display().to_string();
+    let made = watch.run(&pool, |context| request.run(&mut files, context))?;
+    let StippleOutcome { layers: drawn, picture_px, .. } = &made;
+    let paper = Paper::new(&args.page, args.margin, *picture_px)?;
     let pen_mm = args.pen.unwrap_or_else(|| match args.edges {
         Some(_) => LINE_MM,
         None => {
@@ -57,13 +49,13 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
             if mm > 0.05 { (100.0 * mm).floor() / 100.0 } else { mm }
         }
     });
-    let layers = drawn.iter().map(|drawn| drawn.layer(args, &paper, pen_mm)).collect::<Result<Vec<Layer>, evenly::Error>>();
-    let drawing = Drawing { page_mm: paper.size_mm, layers: layers.with_context(|| name.to_owned())? };
+    let layers = drawn.iter().map(|drawn| layer(drawn, args, &paper, pen_mm)).collect::<Result<Vec<Layer>, evenly::Error>>();
+    let drawing = Drawing { page_mm: paper.size_mm, layers: layers.with_context(|| name.clone())? };
     let pen_up_mm: f64 = drawing.layers.iter().map(|layer| layer.marks.pen_up_mm()).sum();
 
     let recipe = record::recipe(Some(args.seed));
     if targets.output.format().holds_points() {
-        write_points(&united(&space, &drawn)?, &[], &recipe, &targets.output)?;
+        write_points(&united(drawn)?, &[], &recipe, &targets.output)?;
     } else {
         pool.install(|| drawing.write(&recipe, &targets.output))?;
     }
@@ -79,17 +71,17 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
         let way = if args.edges.is_none() { format!("; between dots the pen goes {:.2} m", 1e-3 * pen_up_mm.abs()) } else { String::new() };
         say(format_args!("paper {width} x {height} mm, pen {pen_mm:.3} mm{way}"));
         if args.edges.is_none() {
-            ink_note(&drawn, pen_mm, paper.mm_per_px, args.pen.is_some()).into_iter().for_each(say);
+            ink_note(drawn, pen_mm, paper.mm_per_px, args.pen.is_some()).into_iter().for_each(say);
         }
     }
     if let Some(report) = &targets.report {
-        let layers = drawn.iter().filter_map(|drawn| pool.install(|| drawn.report(pen_mm / paper.mm_per_px)).transpose());
+        let layers = drawn.iter().filter_map(|drawn| pool.install(|| layer_record(drawn, pen_mm / paper.mm_per_px)).transpose());
         let record = Record {
             version: record::VERSION,
             command: record::command(),
             method: args.method.name().into(),
             seed: args.seed,
-            picture_px,
+            picture_px: *picture_px,
             page_mm: paper.size_mm,
             pen_mm,
             mm_per_px: paper.mm_per_px,
@@ -101,7 +93,7 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
         };
         report.write((serde_json::to_string_pretty(&record)? + "\n").as_bytes())?;
     }
-    Ok(if cancel.is_cancelled() { interrupt::code() } else { session::DONE })
+    Ok(session::code(if cancel.is_cancelled() { Ending::Cancelled } else { made.ending() }))
 }
 
 /// Where everything goes, checked before the work begins.
@@ -160,73 +152,32 @@ struct LayerRecord {
     tone: ToneReport,
 }
 
-/// The dots of one pen.
-struct Drawn<'a> {
-    ink: &'a Ink,
-    points: PointSet,
-    /// Of the dots, relative to the largest.
-    areas: Vec<f64>,
-    /// The largest dot that suits them.
-    widest_px: f64,
-    /// What only the report takes.
-    density_error: Option<f64>,
-    wanted: Option<Wanted>,
+/// The dots of one pen, or the edges between them, on the paper.
+fn layer(drawn: &DotLayer, args: &Stipple, paper: &Paper, pen_mm: f64) -> Result<Layer, evenly::Error> {
+    let places = drawn.points.positions().iter().map(|&p| paper.place(p));
+    let dots = || places.zip(&drawn.areas).map(|(place, area)| (place, diameter(pen_mm, *area))).collect();
+    let marks = match (args.edges, args.dots) {
+        // A layer of so few has no edges.
+        (Some(_), _) if drawn.points.n_points() < 3 => Marks::Lines(Vec::new()),
+        (Some(edges), _) => {
+            let lines = edges_of(&tessellate(&drawn.points)?, edges);
+            Marks::Lines(lines.into_iter().map(|line| line.map(|p| paper.place(p))).collect())
+        }
+        (None, DotKind::Path) => Marks::Dots(dots()),
+        (None, DotKind::Circle) => Marks::Circles(dots()),
+    };
+    Ok(Layer { name: drawn.name.into(), colour: drawn.colour, pen_mm, marks })
 }
 
-impl<'a> Drawn<'a> {
-    fn new(
-        args: &Stipple,
-        space: Space,
-        ink: &'a Ink,
-        tones: &Tones,
-        n_points: usize,
-        seed: u64,
-        cancel: &CancelToken,
-    ) -> anyhow::Result<Self> {
-        let params = DotsParams { method: args.method, settings: args.method_args.of(args.method), sizes: args.sizes, order: args.order };
-        let bar = session::bar(args.run.quiet, 1000, "{msg} [{bar:30}] {eta} left");
-        let mut run = session::context(&bar, cancel, args.run.quiet);
-        let made = dots(&params, space, ink, tones, n_points, seed, &mut run)?;
-        bar.finish_and_clear();
-        let Dots { points, areas, widest_px } = made;
-        let has_report = args.report.is_some();
-        Ok(Self {
-            ink,
-            widest_px,
-            density_error: if has_report { measure(&points).ok().and_then(|measures| measures.density_error) } else { None },
-            wanted: if has_report { Some(Wanted::new(&points, &tones.darkness, ink.mean_darkness)?) } else { None },
-            // The density's pixels are not needed any more.
-            points: points.with_density(&Density::uniform()),
-            areas,
-        })
-    }
-
-    fn layer(&self, args: &Stipple, paper: &Paper, pen_mm: f64) -> Result<Layer, evenly::Error> {
-        let places = self.points.positions().iter().map(|&p| paper.place(p));
-        let dots = || places.zip(&self.areas).map(|(place, area)| (place, diameter(pen_mm, *area))).collect();
-        let marks = match (args.edges, args.dots) {
-            // A layer of so few has no edges.
-            (Some(_), _) if self.points.n_points() < 3 => Marks::Lines(Vec::new()),
-            (Some(edges), _) => {
-                let lines = edges_of(&tessellate(&self.points)?, edges);
-                Marks::Lines(lines.into_iter().map(|line| line.map(|p| paper.place(p))).collect())
-            }
-            (None, DotKind::Path) => Marks::Dots(dots()),
-            (None, DotKind::Circle) => Marks::Circles(dots()),
-        };
-        Ok(Layer { name: self.ink.name().into(), colour: self.ink.colour(), pen_mm, marks })
-    }
-
-    fn report(&self, pen_px: f64) -> Result<Option<LayerRecord>, evenly::Error> {
-        let Some(wanted) = &self.wanted else { return Ok(None) };
-        let radii: Vec<f64> = self.areas.iter().map(|&area| 0.5 * diameter(pen_px, area)).collect();
-        Ok(Some(LayerRecord {
-            name: self.ink.name(),
-            n_points: self.points.n_points(),
-            density_error: self.density_error,
-            tone: wanted.compare(&self.points, &radii)?,
-        }))
-    }
+fn layer_record(drawn: &DotLayer, pen_px: f64) -> Result<Option<LayerRecord>, evenly::Error> {
+    let Some(wanted) = &drawn.wanted else { return Ok(None) };
+    let radii: Vec<f64> = drawn.areas.iter().map(|&area| 0.5 * diameter(pen_px, area)).collect();
+    Ok(Some(LayerRecord {
+        name: drawn.name,
+        n_points: drawn.points.n_points(),
+        density_error: drawn.density_error,
+        tone: wanted.compare(&drawn.points, &radii)?,
+    }))
 }
 
 /// Of dots with a part of the picture's darkness within this range nothing is said. The widest dots that do not
@@ -235,11 +186,11 @@ const USUAL_INK: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 const USUAL_OF_WIDEST: f64 = 0.5;
 
 /// Says that dots are much paler than the picture, or darker, and what would do.
-fn ink_note(drawn: &[Drawn], pen_mm: f64, mm_per_px: f64, is_pen_given: bool) -> Option<String> {
+fn ink_note(drawn: &[DotLayer], pen_mm: f64, mm_per_px: f64, is_pen_given: bool) -> Option<String> {
     let pen_px = pen_mm / mm_per_px;
-    let of_dots = |drawn: &Drawn| drawn.areas.iter().map(|area| 0.25 * std::f64::consts::PI * pen_px * pen_px * area).sum::<f64>();
+    let of_dots = |drawn: &DotLayer| drawn.areas.iter().map(|area| 0.25 * std::f64::consts::PI * pen_px * pen_px * area).sum::<f64>();
     let ink: f64 = drawn.iter().map(of_dots).sum();
-    let wanted: f64 = drawn.iter().map(|drawn| drawn.ink.mean_darkness * drawn.points.space().area()).sum();
+    let wanted: f64 = drawn.iter().map(|drawn| drawn.mean_darkness * drawn.points.space().area()).sum();
     let share = ink / wanted;
     let is_usual = USUAL_INK.contains(&share) || !is_pen_given && (USUAL_OF_WIDEST..1.0).contains(&share);
     if !share.is_finite() || is_usual {
@@ -262,6 +213,7 @@ fn diameter(pen: f64, area: f64) -> f64 {
 }
 
 /// The dots of all pens, one after the other.
-fn united(space: &Space, drawn: &[Drawn]) -> Result<PointSet, evenly::Error> {
-    PointSet::new(space, drawn.iter().flat_map(|drawn| drawn.points.positions()).copied().collect())
+fn united(drawn: &[DotLayer]) -> Result<PointSet, evenly::Error> {
+    let Some(first) = drawn.first() else { return PointSet::new(Rectangle::new([0.0; 2], [1.0; 2])?, Vec::new()) };
+    PointSet::new(first.points.space(), drawn.iter().flat_map(|drawn| drawn.points.positions()).copied().collect())
 }

@@ -4,11 +4,11 @@ use evenly::{ZonePlateParams, zone_plate};
 use evenly_io::{Target, write_image};
 
 use crate::measuring_args::Zoneplate;
-use crate::{input, measured, record, session};
+use crate::{files, measured, record, session};
 
 pub fn run(args: &Zoneplate) -> anyhow::Result<u8> {
     let output = args.output.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose()?;
-    let points = input::read_and_tell(&args.input, &args.space.space()?)?;
+    let points = files::read_points(&args.input, &args.space.space()?)?;
     let params = ZonePlateParams { pixels: args.pixels, max_frequency: args.frequency, filter: args.filter.into() };
     let pool = session::pool(args.measured.threads, false)?;
     let plate =

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::path::PathBuf;
 
+use anyhow::Context as _;
 use evenly::{
     LloydParams, LocalMethod, OptBetaParams, Outcome, RemeshParams, Remeshed, RunContext, Settings, Surface, SurfaceSizing, TriangleMesh,
     WellSpacedParams, expected_vertices, remesh, surface_quality, surface_sizes,
@@ -12,7 +13,6 @@ use evenly_io::{Axis, read_triangles, triangles_svg};
 use super::lab::{Interrupted, Lab, named};
 use super::part::Part;
 use super::spread::spread;
-use crate::remeshed::surface_of;
 
 pub const PUSH_PULL: &str = "Push-Pull {0.90, 0.63}";
 
@@ -131,7 +131,8 @@ pub fn figure_14(lab: &Lab) -> anyhow::Result<Part> {
 /// The surface of a model, if its file is given: one whose name begins so.
 pub fn model(lab: &Lab, name: &str) -> anyhow::Result<Option<Surface>> {
     let is_it = |path: &&PathBuf| path.file_stem().is_some_and(|stem| stem.to_string_lossy().to_lowercase().starts_with(name));
-    lab.models.iter().find(is_it).map(|path| surface_of(&read_triangles(path)?.mesh, path, true)).transpose()
+    let surface = |path: &PathBuf| Surface::repaired(&read_triangles(path)?.mesh).with_context(|| path.display().to_string());
+    lab.models.iter().find(is_it).map(surface).transpose()
 }
 
 /// A run, and how many passes it took.

@@ -28,6 +28,26 @@ pub enum Draw {
 }
 
 impl Draw {
+    /// All, each with its name and what it shows.
+    pub const ALL: [(Self, &'static str, &'static str); 11] = [
+        (Self::Points, "points", "The points"),
+        (Self::Delaunay, "delaunay", "The Delaunay triangulation"),
+        (Self::Voronoi, "voronoi", "The Voronoi diagram"),
+        (Self::Valence, "valence", "Voronoi cells coloured by their number of neighbours"),
+        (Self::Capacity, "capacity", "Voronoi cells coloured by their area"),
+        (Self::PowerSpectrum, "spectrum", "The power spectrum, in log grey"),
+        (Self::RadialPower, "radial", "The radial mean of the power spectrum"),
+        (Self::Anisotropy, "anisotropy", "How much the power differs by direction"),
+        (Self::PairCorrelation, "correlation", "The pair correlation"),
+        (Self::Angles, "angles", "The angles of the triangles"),
+        (Self::Report, "report", "One page of all of it"),
+    ];
+
+    /// What has this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().find(|(_, own, _)| *own == name).map(|&(draw, ..)| draw)
+    }
+
     /// Whether it is part of a map.
     pub(super) fn is_layer(self) -> bool {
         self <= Self::Points

@@ -10,7 +10,7 @@ import numpy as np
 
 from evenly._jobs import Interrupted
 from evenly._measures import Measures, measure
-from evenly._methods import OptimizerOptions, option_words, options_of
+from evenly._methods import OptimizerOptions, options_of, parameters_of
 from evenly._points import Points, generate, optimize
 from evenly._seeds import Seed, number
 from evenly._spaces import Pair
@@ -116,7 +116,7 @@ def compare(
     """
     if runs < 1:
         raise ValueError(f"runs is {runs}; it must be 1 or more")
-    option_words(options)
+    parameters_of(options)
     for name in options:
         if not any(options_of(method, {name: None}) for method in methods):
             raise ValueError(f"{name} is for none of these methods")

@@ -1,5 +1,5 @@
-from collections.abc import Callable, Sequence
-from typing import TypeAlias, final
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,6 @@ _Callback: TypeAlias = Callable[[int, float | None, float | None, float], bool |
 _Clean: TypeAlias = tuple[list[list[tuple[float, float]]], float, list[str]]
 _Shape: TypeAlias = tuple[_Rows, NDArray[np.int64]] | str
 _Places: TypeAlias = tuple[_Rows, NDArray[np.int64], _Rows, _Rows]
-_Layer: TypeAlias = tuple[str, str, _Rows, NDArray[np.float64], float]
 
 __all__ = [
     "Pending",
@@ -22,21 +21,16 @@ __all__ = [
     "__version__",
     "command",
     "figure",
-    "generate",
     "measure",
-    "mesh",
     "mesh_figure",
     "methods",
-    "optimize",
+    "perform",
     "polygon",
     "power_spectrum",
     "radial_spectrum",
     "read_polygon",
     "read_regions",
-    "remesh",
     "rendered",
-    "sample",
-    "stipple",
     "surface_figure",
     "surface_spectrum",
     "triangles",
@@ -51,24 +45,9 @@ class Stopped(KeyboardInterrupt): ...
 class Pending:
     def result(self) -> object: ...
 
-def generate(
-    n: int | None,
-    fixed: _Rows,
-    space: _Space,
-    density: _Density,
-    words: list[str],
-    threads: int | None,
-    callback: _Callback,
-) -> tuple[_Rows, str]: ...
-def optimize(
-    points: _Rows,
-    fixed: _Rows,
-    space: _Space,
-    density: _Density,
-    words: list[str],
-    threads: int | None,
-    callback: _Callback,
-) -> tuple[_Rows, str]: ...
+def perform(
+    request: str, data: Mapping[str, object], threads: int | None, callback: _Callback
+) -> Any: ...
 def measure(points: _Rows, space: _Space, density: _Density, threads: int | None) -> str: ...
 def power_spectrum(
     sets: list[_Rows], space: _Space, max_frequency: float, threads: int | None
@@ -82,37 +61,8 @@ def rendered(svg: str) -> bytes: ...
 def polygon(parts: _Parts) -> _Clean: ...
 def read_polygon(path: str) -> _Clean: ...
 def read_regions(path: str) -> list[tuple[str, _Clean]]: ...
-def mesh(
-    rings: _Rings,
-    words: list[str],
-    fixed: _Rows,
-    lines: list[_Rows],
-    sizes: _Rows | None,
-    regions: Sequence[tuple[str, _Rings]],
-    wanted: _Density,
-    threads: int | None,
-    callback: _Callback,
-) -> tuple[_Rows, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], str, list[float], NDArray[np.int64]]: ...
 def write_mesh(path: str, parts: dict[str, object]) -> None: ...
 def mesh_figure(parts: dict[str, object]) -> str: ...
-def stipple(
-    picture: NDArray[np.float32] | str,
-    n: int,
-    words: list[str],
-    threads: int | None,
-    callback: _Callback,
-) -> tuple[tuple[int, int], list[_Layer]]: ...
-def remesh(
-    shape: _Shape,
-    words: list[str],
-    sizes: list[float] | None,
-    points: _Rows | None,
-    threads: int | None,
-    callback: _Callback,
-) -> tuple[_Places, NDArray[np.int64], list[tuple[str, NDArray[np.float64]]], str]: ...
-def sample(
-    shape: _Shape, words: list[str], sizes: list[float] | None, threads: int | None, callback: _Callback
-) -> tuple[_Places, str]: ...
 def surface_spectrum(
     shape: _Shape, points: _Rows, is_local: bool, is_repaired: bool, threads: int | None
 ) -> tuple[tuple[float, float], tuple[_Rows, _Rows, _Rows, _Rows, float, float]]: ...

@@ -1,5 +1,6 @@
-"""Calls of the native half: words for its options, callbacks, and Ctrl-C."""
+"""Calls of the native half: requests, callbacks, and Ctrl-C."""
 
+import json
 import numbers
 import threading
 from collections.abc import Callable, Mapping
@@ -26,12 +27,13 @@ _KINDS: dict[str, Kind] = {
     "sizes": "choice",
     "order": "choice",
     "start": "choice",
-    "density": "choice",
+    "metric": "choice",
     "features": "target",
     "max_deviation": "target",
     "seed": "count",
     "n_triangles": "count",
     "n_points": "count",
+    "n_vertices": "count",
 }
 _NEEDED = {"method", "layers", "sizes", "order"}
 
@@ -105,31 +107,69 @@ def threads_of(threads: object) -> int | None:
     return int(cast(int, threads))
 
 
-def words(options: Mapping[str, object]) -> list[str]:
-    """Return options as the command line has them; None and False are left out."""
-    return [each for name, value in options.items() for each in word(name, value, _KINDS.get(name, "number"))]
+def perform(
+    job: str,
+    options: Mapping[str, object],
+    parameters: Mapping[str, object],
+    data: Mapping[str, object],
+    build: Callable[[Any], Result],
+    threads: object = None,
+    callback: Callback | None = None,
+) -> Result:
+    """Let the native half do a job.
+
+    Data are numpy arrays, lists of them or files, by the names that the request has for them; options that are None, and data, are left out.
+    """
+    request: dict[str, object] = {"job": job, "parameters": dict(parameters)}
+    request |= {name: value for name, value in checked(options).items() if value is not None}
+    arrays = {}
+    for name, given in data.items():
+        if isinstance(given, Named):
+            request[name], arrays[given.name] = given.name if given.place is None else given.place, given.data
+        elif given is not None:
+            request[name] = given
+    text = json.dumps(request)
+    return run(lambda: _evenly.perform(text, arrays, threads_of(threads), told(callback)), build)
 
 
-def word(name: str, value: object, kind: Kind) -> list[str]:
-    """Return one option as the command line has it."""
-    flag = "--" + name.replace("_", "-")
+class Named(NamedTuple):
+    """Data, and what they are called where something is wrong with them."""
+
+    name: str
+    data: object
+    place: object = None
+    """What stands in the request, if that is more than the name."""
+
+
+def named(name: str, data: object) -> object:
+    """Return data with their name; a file's name, and None, as they are."""
+    return data if data is None or isinstance(data, str) else Named(name, data)
+
+
+def checked(options: Mapping[str, object]) -> dict[str, object]:
+    """Return options that are of their kind."""
+    return {name: value_of(name, value, _KINDS.get(name, "number")) for name, value in options.items()}
+
+
+def value_of(name: str, value: object, kind: Kind) -> object:
+    """Return the value of one option as requests have it; None where there is none."""
     if kind == "flag":
         if not isinstance(value, (bool, np.bool_)):
             raise TypeError(f"{name} must be True or False, not {value!r}")
-        return [flag] if value else []
+        return bool(value)
     if value is None and name not in _NEEDED:
-        return []
+        return None
     if kind == "choice":
         if not isinstance(value, str):
             raise TypeError(f"{name} must be a name, not {value!r}")
-        return [f"{flag}={value}"]
+        return value
     if kind == "target" and value == "off":
-        return [f"{flag}=off"]
+        return "off"
     if kind == "count" and not _is_whole(value):
         raise TypeError(f"{name} must be a whole number, not {value!r}")
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number, not {value!r}")
-    return [f"{flag}={int(cast(Any, value)) if kind == 'count' else repr(float(cast(Any, value)))}"]
+    return int(cast(Any, value)) if kind == "count" else float(cast(Any, value))
 
 
 def _is_whole(value: object) -> bool:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, frozen, rows
 from evenly._densities import Density, density_of
-from evenly._jobs import Callback, run, threads_of, told, words
-from evenly._methods import OnMeshes, OptimizerOptions, option_words, refuse_renamed
+from evenly._jobs import Callback, named, perform, run
+from evenly._methods import OnMeshes, OptimizerOptions, parameters_of, refuse_renamed
 from evenly._seeds import Seed, number
 from evenly._spaces import Polygon
 
@@ -205,35 +205,16 @@ def mesh(
     (0, True)
     """
     refuse_renamed(options, {"spacing": "edge_length", "max_spacing": "max_edge_length"})
-    if (edge_length is None) == (n_triangles is None):
-        raise ValueError("give either edge_length or n_triangles")
     parts = _named(regions)
-    if polygon is None and not parts:
-        raise ValueError("give a polygon, or regions")
-    if simplify is not None and parts:
-        raise ValueError("simplify would part regions that touch; simplify them before")
     shape = polygon if polygon is None or isinstance(polygon, Polygon) else Polygon(polygon)
     chance = number(seed)
-    given = words(
-        {
-            "edge_length": edge_length,
-            "n_triangles": n_triangles,
-            "simplify": simplify,
-            "seed": chance,
-            "method": method,
-            "grade": grade,
-            "max_edge_length": max_edge_length,
-            "min_angle": min_angle,
-            "no_obtuse": no_obtuse,
-        }
-    ) + option_words(options)
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     ways = [rows(line, f"line {k}") for k, line in enumerate(lines or ())]
     lengths = None if sizes is None else rows(sizes, "sizes", 3, may_be_empty=True)
     if density is not None and shape is None:
         raise ValueError("density spans the polygon's frame; give the polygon too")
     wanted = None if shape is None else density_of(density, shape)
-    outer = [] if shape is None else [list(ring) for ring in shape.rings]
+    outer = None if shape is None else [list(ring) for ring in shape.rings]
     repairs = () if shape is None else shape.repairs
 
     def build(
@@ -258,9 +239,31 @@ def mesh(
             n_in_corners=said["n_in_corners"],
         )
 
-    return run(
-        lambda: _evenly.mesh(outer, given, held, ways, lengths, parts, wanted, threads_of(threads), told(callback)),
+    return perform(
+        "mesh",
+        {
+            "edge_length": edge_length,
+            "n_triangles": n_triangles,
+            "simplify": simplify,
+            "seed": chance,
+            "method": method,
+            "grade": grade,
+            "max_edge_length": max_edge_length,
+            "min_angle": min_angle,
+            "no_obtuse": no_obtuse,
+        },
+        parameters_of(options),
+        {
+            "polygon": named("the polygon", outer),
+            "regions": named("the regions", parts or None),
+            "fixed": named("fixed", held),
+            "lines": named("lines", ways),
+            "sizes": named("sizes", lengths),
+            "density": named("density", wanted),
+        },
         build,
+        threads,
+        callback,
     )
 
 

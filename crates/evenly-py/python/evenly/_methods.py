@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias, TypedDict
 
 from evenly import _evenly
-from evenly._jobs import Kind, word
+from evenly._jobs import Kind, value_of
 
 Optimizer: TypeAlias = Literal[
     "procrustes", "push-pull", "well-spaced", "opt-beta", "lloyd", "cvt", "farthest-point", "distmesh", "capacity", "warp"
@@ -124,12 +124,13 @@ def _kinds() -> dict[str, Kind]:
     return {name: parameter.kind for method in _registry().values() for name, parameter in method.parameters.items()}
 
 
-def option_words(options: Mapping[str, object]) -> list[str]:
-    """Return options of methods as the command line has them; None and False are left out."""
+def parameters_of(options: Mapping[str, object]) -> dict[str, object]:
+    """Return options of methods as requests have them; None and False are left out."""
     unknown = [name for name in options if name not in _kinds()]
     if unknown:
         raise TypeError(f"unexpected keyword argument {unknown[0]!r}; methods can be told: {', '.join(_kinds())}")
-    return [each for name, value in options.items() for each in word(name, value, _kinds()[name])]
+    values = {name: value_of(name, value, _kinds()[name]) for name, value in options.items()}
+    return {name: value for name, value in values.items() if value is not None and value is not False}
 
 
 def refuse_renamed(options: Mapping[str, object], names: Mapping[str, str]) -> None:

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
 from evenly._densities import Density, density_of
-from evenly._jobs import Callback, run, threads_of, told, words
+from evenly._jobs import Callback, named, perform, run
 from evenly._measures import Measures, measure
-from evenly._methods import MethodOptions, Optimizer, OptimizerOptions, Start, option_words
+from evenly._methods import MethodOptions, Optimizer, OptimizerOptions, Start, parameters_of
 from evenly._seeds import Seed, number
-from evenly._spaces import Metric, Pair, Polygon, Space, native, space_of
+from evenly._spaces import Metric, Pair, Polygon, Space, domain, metric_of, native, space_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -163,21 +163,23 @@ def generate(
     where = space_of(space, size, origin, fixed.space if isinstance(fixed, Points) else None)
     units = metric or (fixed.metric if isinstance(fixed, Points) else "input")
     chance = number(seed)
-    given = words(
+    held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
+    wanted = density_of(density, where)
+    return perform(
+        "generate",
         {
+            "n_points": None if n is None else _count(n),
             "method": method,
             "start": start,
             "seed": chance,
             "no_warp": _is_unwarped(warp),
-        }
-    )
-    given += option_words(options)
-    held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
-    wanted = density_of(density, where)
-    count = None if n is None else _count(n)
-    return run(
-        lambda: _evenly.generate(count, held, native(where, units), wanted, given, threads_of(threads), told(callback)),
+            "metric": metric_of(units),
+        },
+        parameters_of(options),
+        {**domain(where), "fixed": named("fixed", held), "density": named("density", wanted)},
         lambda answer: _points(answer, where, units, method, chance, wanted),
+        threads,
+        callback,
     )
 
 
@@ -234,19 +236,16 @@ def optimize(
     where = space_of(space, size, origin, points.space if isinstance(points, Points) else None)
     units = metric or (points.metric if isinstance(points, Points) else "input")
     chance = number(seed)
-    given = words(
-        {
-            "method": method,
-            "seed": chance,
-            "no_warp": _is_unwarped(warp),
-        }
-    )
-    given += option_words(options)
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
     wanted = density_of(points.density if density is None and isinstance(points, Points) else density, where)
-    return run(
-        lambda: _evenly.optimize(positions, held, native(where, units), wanted, given, threads_of(threads), told(callback)),
+    return perform(
+        "optimize",
+        {"method": method, "seed": chance, "no_warp": _is_unwarped(warp), "metric": metric_of(units)},
+        parameters_of(options),
+        {**domain(where), "points": named("points", positions), "fixed": named("fixed", held), "density": named("density", wanted)},
         lambda answer: _points(answer, where, units, method, chance, wanted),
+        threads,
+        callback,
     )
 
 

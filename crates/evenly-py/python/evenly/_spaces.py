@@ -10,6 +10,7 @@ import numpy as np
 
 from evenly import _evenly
 from evenly._arrays import rows
+from evenly._jobs import Named
 
 Pair: TypeAlias = tuple[float, float]
 Metric: TypeAlias = Literal["input", "unit"]
@@ -115,14 +116,26 @@ def space_of(space: object, size: Pair | None, origin: Pair | None, default: Spa
     return Polygon(space)
 
 
-def native(space: Space, metric: Metric = "input") -> Any:
-    """Return what the native half takes."""
+def metric_of(metric: object) -> str:
+    """Return a metric that there is."""
     if metric not in ("input", "unit"):
         raise ValueError(f"metric is {metric!r}; it must be 'input' or 'unit'")
-    is_unit = metric == "unit"
+    return str(metric)
+
+
+def native(space: Space, metric: Metric = "input") -> Any:
+    """Return what the native half takes."""
+    is_unit = metric_of(metric) == "unit"
     if isinstance(space, Polygon):
         return ([list(ring) for ring in space.rings], is_unit)
     return ("torus" if isinstance(space, Torus) else "rectangle", space.origin, space.size, is_unit)
+
+
+def domain(space: Space) -> dict[str, object]:
+    """Return the domain as requests have it, and its data."""
+    if isinstance(space, Polygon):
+        return {"space": Named("the polygon", [list(ring) for ring in space.rings], {"kind": "polygon", "polygon": "the polygon"})}
+    return {"space": {"kind": "torus" if isinstance(space, Torus) else "rectangle", "origin": space.origin, "size": space.size}}
 
 
 def frame(space: Space) -> tuple[Pair, Pair]:

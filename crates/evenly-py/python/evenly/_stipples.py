@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen
-from evenly._jobs import Callback, run, threads_of, told, words
-from evenly._methods import OptimizerOptions, option_words
+from evenly._jobs import Callback, named, perform
+from evenly._methods import OptimizerOptions, parameters_of
 from evenly._seeds import Seed, number
 
 if TYPE_CHECKING:
@@ -149,20 +148,6 @@ def stipple(
     (500, True)
     """
     chance = number(seed)
-    given = words(
-        {
-            "method": method,
-            "seed": chance,
-            "invert": invert,
-            "contrast": contrast,
-            "gamma": gamma,
-            "floor": floor,
-            "white": white,
-            "layers": layers,
-            "sizes": sizes,
-            "order": order,
-        }
-    ) + option_words(options)
     if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 1:
         raise ValueError(f"n is {n!r}; it must be a whole number, 1 or more")
     source = os.fspath(picture) if isinstance(picture, (str, os.PathLike)) else _colours(picture)
@@ -175,7 +160,27 @@ def stipple(
         )
         return Stippling(tuple(made), size, chance)
 
-    return run(lambda: _evenly.stipple(source, int(n), given, threads_of(threads), told(callback)), build)
+    return perform(
+        "stipple",
+        {
+            "n_points": int(n),
+            "method": method,
+            "seed": chance,
+            "invert": invert,
+            "contrast": contrast,
+            "gamma": gamma,
+            "floor": floor,
+            "white": white,
+            "layers": layers,
+            "sizes": sizes,
+            "order": order,
+        },
+        parameters_of(options),
+        {"picture": named("the picture", source)},
+        build,
+        threads,
+        callback,
+    )
 
 
 def _colours(picture: "ArrayLike") -> NDArray[np.float32]:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
-from evenly._jobs import Callback, run, threads_of, told, words
-from evenly._methods import OnMeshes, OnSurfaces, OptimizerOptions, option_words, refuse_renamed
+from evenly._jobs import Callback, named, perform, run
+from evenly._methods import OnMeshes, OnSurfaces, OptimizerOptions, parameters_of, refuse_renamed
 from evenly._seeds import Seed, number
 from evenly._shapes import native
 
@@ -266,29 +266,9 @@ def remesh(
     """
     has_sizes = density is not None and not isinstance(density, str)
     refuse_renamed(options, {"spacing": "edge_length"})
-    if n is not None and edge_length is not None:
-        raise ValueError("give either n or edge_length")
     begin = None if points is None else rows(points, "points", 3)
-    if n is None and edge_length is None and begin is not None:
-        n = len(begin)
-    if n is None and edge_length is None and (density is None or has_sizes):
-        raise ValueError("n or edge_length is missing: how many vertices?")
     sizes = None if not has_sizes else _sizes(density)
     chance = number(seed)
-    given = words(
-        {
-            "n_vertices": n,
-            "edge_length": edge_length,
-            "seed": chance,
-            "method": method,
-            "density": None if has_sizes else density,
-            "features": features,
-            "max_deviation": max_deviation,
-            "repair": repair,
-            "weld": weld,
-        }
-    ) + option_words(options)
-
     def build(answer: tuple[_Places, NDArray[np.int64], list[tuple[str, Floats]], str]) -> SurfaceMesh:
         (vertices, facets, barycentric, normals), triangles, attributes, text = answer
         said: dict[str, Any] = json.loads(text)
@@ -308,8 +288,28 @@ def remesh(
             notes=tuple(said["notes"]),
         )
 
-    mesh = native(shape)
-    return run(lambda: _evenly.remesh(mesh, given, sizes, begin, threads_of(threads), told(callback)), build)
+    return perform(
+        "remesh",
+        {
+            "n_vertices": n,
+            "edge_length": edge_length,
+            "seed": chance,
+            "method": method,
+            "features": features,
+            "max_deviation": max_deviation,
+            "repair": repair,
+            "weld": weld,
+        },
+        parameters_of(options),
+        {
+            "mesh": named("the mesh", native(shape)),
+            "density": named("density", density if sizes is None else sizes),
+            "points": named("points", begin),
+        },
+        build,
+        threads,
+        callback,
+    )
 
 
 def sample(
@@ -371,23 +371,9 @@ def sample(
     >>> points.positions.shape, bool((points.normals == (0, 0, 1)).all())
     ((100, 3), True)
     """
-    if (n is None) == (spacing is None):
-        raise ValueError("give either n or spacing")
     chance = number(seed)
     has_sizes = density is not None and not isinstance(density, str)
     sizes = None if not has_sizes else _sizes(density)
-    given = words(
-        {
-            "n_points": n,
-            "spacing": spacing,
-            "seed": chance,
-            "method": method,
-            "density": None if has_sizes else density,
-            "repair": repair,
-            "weld": weld,
-        }
-    ) + option_words(options)
-
     def build(answer: tuple[_Places, str]) -> SurfacePoints:
         (positions, facets, barycentric, normals), text = answer
         said: dict[str, Any] = json.loads(text)
@@ -401,8 +387,15 @@ def sample(
             notes=tuple(said["notes"]),
         )
 
-    mesh = native(shape)
-    return run(lambda: _evenly.sample(mesh, given, sizes, threads_of(threads), told(callback)), build)
+    return perform(
+        "sample",
+        {"n_points": n, "spacing": spacing, "seed": chance, "method": method, "repair": repair, "weld": weld},
+        parameters_of(options),
+        {"mesh": named("the mesh", native(shape)), "density": named("density", density if sizes is None else sizes)},
+        build,
+        threads,
+        callback,
+    )
 
 
 def _read(kind: Any, said: dict[str, Any]) -> Any:

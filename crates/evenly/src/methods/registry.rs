@@ -3,6 +3,10 @@
 
 use std::fmt;
 
+use serde::de::{self, Deserializer};
+use serde::ser::Serializer;
+use serde::{Deserialize, Serialize};
+
 use super::local::LocalMethod;
 use super::optimizer::{AnyOptimizer, Optimizer, Optimizing};
 use super::{
@@ -69,6 +73,24 @@ impl fmt::Debug for Method {
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+/// By its name.
+impl Serialize for Method {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Method {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let unknown = || {
+            let names: Vec<&str> = Self::all().map(|method| method.name()).collect();
+            de::Error::custom(format!("there is no method {name:?}; there are {}", names.join(", ")))
+        };
+        Self::named(&name).ok_or_else(unknown)
     }
 }
 

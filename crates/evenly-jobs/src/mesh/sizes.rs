@@ -1,7 +1,9 @@
 //! A wanted spacing for every place: from points that have one, or from a picture's tones.
 
-use anyhow::bail;
 use evenly::{Density, Polygon, Space};
+
+use crate::error::Error;
+use crate::message::Message;
 
 /// A grid of densities spans the polygon's frame with so many cells along its longer side.
 const CELLS: f64 = 512.0;
@@ -17,14 +19,18 @@ pub enum Sizes {
 
 impl Sizes {
     /// What points with a spacing each, or a density, ask for; `None` if that is the same spacing everywhere.
-    pub fn new(points: Option<Vec<[f64; 3]>>, density: Option<Density>, polygon: &Polygon, growth: f64) -> anyhow::Result<Option<Self>> {
+    pub fn new(points: Option<Vec<[f64; 3]>>, density: Option<Density>, polygon: &Polygon, growth: f64) -> Result<Option<Self>, Error> {
         let density = match (points, density) {
-            (Some(_), Some(_)) => bail!("--sizes and --density both say how long edges are; give one"),
+            (Some(_), Some(_)) => {
+                let both = Message::default().name("sizes").text(" and ").name("density");
+                return Err(both.text(" both say how long edges are; give one").into());
+            }
             (None, None) => return Ok(None),
             (None, Some(density)) => density,
             (Some(points), None) => {
                 if let Some([x, y, length]) = points.iter().find(|point| point[2] <= 0.0) {
-                    bail!("--sizes: the length at ({x}, {y}) is {length}; it must be positive");
+                    let at = format!(": the length at ({x}, {y}) is {length}; it must be positive");
+                    return Err(Message::default().name("sizes").text(at).into());
                 }
                 return Ok(Some(Self::Points(points, growth)));
             }

@@ -6,18 +6,19 @@ use evenly::{EdgeKind, Mesh, OBTUSE_DEG};
 use serde::Serialize;
 
 /// A triangle that does not meet a demand.
-#[derive(Serialize)]
-pub struct Unmet {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct UnmetAngle {
     /// What was demanded.
     pub demand: &'static str,
     /// The angle that is too small or too large.
     pub angle_deg: f64,
     /// The vertex at which it is.
     pub at: [f64; 2],
+    /// What it comes from.
     pub why: &'static str,
 }
 
-impl std::fmt::Display for Unmet {
+impl std::fmt::Display for UnmetAngle {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { demand, angle_deg, at, why } = self;
         write!(f, "{demand}: an angle of {angle_deg:.2} degrees at ({}, {}), {why}", at[0], at[1])
@@ -44,7 +45,7 @@ fn in_corners(mesh: &Mesh) -> std::ops::Range<usize> {
 
 /// The triangles that have a smaller angle than `least`, in degrees, or an obtuse one, the worst first.
 /// Those in corners of the polygon that are sharper themselves are no fault of the mesh.
-pub fn unmet(mesh: &Mesh, least: f64, no_obtuse: bool) -> Vec<Unmet> {
+pub fn unmet(mesh: &Mesh, least: f64, no_obtuse: bool) -> Vec<UnmetAngle> {
     let border: HashSet<[usize; 2]> =
         mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. })).map(|edge| edge.ends).collect();
     let is_held = |a: usize, b: usize| border.contains(&[a, b]) || border.contains(&[b, a]);
@@ -58,7 +59,7 @@ pub fn unmet(mesh: &Mesh, least: f64, no_obtuse: bool) -> Vec<Unmet> {
         let is_corner = |k: usize| sides[k] && sides[(k + 2) % 3];
         let n_held = sides.iter().filter(|&&is| is).count();
         let why = if n_held > 0 { "where the border is detailed or the domain narrow" } else { "near where the border is detailed" };
-        let mut miss = |demand, k: usize| found.push(Unmet { demand, angle_deg: angles[k], at: mesh.vertices[corners[k]], why });
+        let mut miss = |demand, k: usize| found.push(UnmetAngle { demand, angle_deg: angles[k], at: mesh.vertices[corners[k]], why });
         if angles[smallest] < least && !is_corner(smallest) && !in_corners(mesh).contains(&t) {
             miss("min angle", smallest);
         }
@@ -66,7 +67,7 @@ pub fn unmet(mesh: &Mesh, least: f64, no_obtuse: bool) -> Vec<Unmet> {
             miss("no obtuse", largest);
         }
     }
-    let badness = |unmet: &Unmet| if unmet.demand == "min angle" { unmet.angle_deg } else { 180.0 - unmet.angle_deg };
+    let badness = |unmet: &UnmetAngle| if unmet.demand == "min angle" { unmet.angle_deg } else { 180.0 - unmet.angle_deg };
     found.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
     found
 }

@@ -4,13 +4,14 @@ use evenly::{Density, Error, Image, PointSet, dot_coverage};
 use serde::Serialize;
 
 /// The drawing against the picture.
-#[derive(Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ToneReport {
     /// How much of the picture's darkness the dots have, on average.
     pub ink_share: f64,
     /// After a Gaussian of four dot spacings, and with the ink brought to the picture's mean. Absent where dots are too fine to be seen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub psnr_db: Option<f64>,
+    /// As `psnr_db`: the mean structural similarity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ssim: Option<f64>,
 }

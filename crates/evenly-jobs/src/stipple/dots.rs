@@ -1,18 +1,20 @@
 //! The dots of one pen: spread by its tones, in the order in which they are drawn, as large as they are to be.
 
-use evenly::{Method, PointSet, RunContext, Settings, Space, progressive, tour};
+use evenly::{Method, PointSet, Settings, Space, progressive, tour};
 
 use super::ink::{Ink, Tones};
 use super::pen::{dot_areas, widest_dot};
 use super::spread::{optimizer, spread};
-use crate::stipple_args::{DrawOrder, Sizes};
+use super::{DotSizes, DrawOrder};
+use crate::context::Context;
+use crate::error::Error;
 
 /// How dots are made.
-pub struct DotsParams {
+pub struct DotsParams<'a> {
     pub method: Method,
     /// What the method is told.
-    pub settings: Settings,
-    pub sizes: Sizes,
+    pub settings: &'a Settings,
+    pub sizes: DotSizes,
     pub order: DrawOrder,
 }
 
@@ -37,20 +39,19 @@ pub fn dots(
     tones: &Tones,
     n_points: usize,
     seed: u64,
-    run: &mut RunContext,
-) -> anyhow::Result<Dots> {
-    let optimizer = optimizer(params.method, &params.settings, seed)?;
-    let points = spread(space, &tones.density, n_points, params.method, optimizer.as_deref(), seed, run)?;
+    context: &mut Context,
+) -> Result<Dots, Error> {
+    let optimizer = optimizer(params.method, params.settings, seed)?;
+    let points = spread(space, &tones.density, n_points, params.method, optimizer.as_deref(), seed, context)?;
     let points = match params.order {
         // An order that takes long is left out where nobody wants to wait; a pen cannot do without its tour.
-        DrawOrder::Progressive if run.is_cancelled() => ordered(&points, &tour(&points, run))?,
-        DrawOrder::Tour => ordered(&points, &tour(&points, run))?,
-        DrawOrder::Progressive => progressive(&points, run)?,
+        DrawOrder::Progressive if !context.is_cancelled() => progressive(&points, &context.silent())?,
+        DrawOrder::Tour | DrawOrder::Progressive => ordered(&points, &tour(&points, &context.silent()))?,
         DrawOrder::Input => points,
     };
     let areas = match params.sizes {
-        Sizes::Constant => vec![1.0; points.n_points()],
-        Sizes::Tone => dot_areas(&points, &tones.darkness, ink.mean_darkness),
+        DotSizes::Constant => vec![1.0; points.n_points()],
+        DotSizes::Tone => dot_areas(&points, &tones.darkness, ink.mean_darkness),
     };
     Ok(Dots { widest_px: widest_dot(&points, ink.mean_darkness, &areas), points, areas })
 }

@@ -3,7 +3,8 @@
 use evenly::Density;
 use evenly_io::{Photograph, Tone, luma};
 
-use crate::stipple_args::{Layers, Sizes};
+use super::{DotSizes, Layers};
+use crate::error::Error;
 
 /// One pen's share of the picture.
 pub struct Ink {
@@ -75,12 +76,12 @@ impl Ink {
     ///
     /// # Errors
     /// It has nothing to draw.
-    pub fn tones(&self, photograph: &Photograph, tone: &Tone, sizes: Sizes) -> anyhow::Result<Tones> {
+    pub fn tones(&self, photograph: &Photograph, tone: &Tone, sizes: DotSizes) -> Result<Tones, Error> {
         let mut values = self.values(photograph, tone);
         let darkness = photograph.density_of(&values)?;
         let density = match sizes {
-            Sizes::Constant => darkness.clone(),
-            Sizes::Tone => {
+            DotSizes::Constant => darkness.clone(),
+            DotSizes::Tone => {
                 values.iter_mut().for_each(|value| *value /= dot_area(f64::from(*value)) as f32);
                 photograph.density_of(&values)?
             }

@@ -1,0 +1,426 @@
+//! Points: made of nothing ([`GenerateRequest`]), or of other points ([`OptimizeRequest`]).
+
+use std::collections::HashSet;
+
+use evenly::{
+    Density, Measures, Method, Optimizer, Outcome, PointSet, Report, Settings, Space, UnmetTarget, angle_bounds_deg, measure,
+    warp_isotropic,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::context::{Context, Stage};
+use crate::error::Error;
+use crate::memory;
+use crate::message::Message;
+use crate::method::{Job, optimizer, require_beginning, require_density, require_density_of_start};
+use crate::resource::{Pixels, Positions, Resource, Resources, called};
+use crate::space::{Domain, Metric};
+
+/// Points from nothing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
+pub struct GenerateRequest {
+    /// How many, exactly; of `poisson-disk` about.
+    pub n_points: Option<usize>,
+    /// How they are made: by an optimiser, or as one of its starts.
+    #[cfg_attr(test, schemars(with = "crate::schema::MethodName"))]
+    pub method: Method,
+    /// What the method is told.
+    #[cfg_attr(test, schemars(with = "crate::schema::Parameters"))]
+    pub parameters: Settings,
+    /// What an optimiser starts from; its own default if none is named.
+    #[cfg_attr(test, schemars(with = "Option<crate::schema::MethodName>"))]
+    pub start: Option<Method>,
+    /// Not to even out points before they are optimised.
+    pub no_warp: bool,
+    /// The same seed makes the same points.
+    pub seed: u64,
+    /// Where they are.
+    pub space: Domain,
+    /// In whose units distances count.
+    pub metric: Metric,
+    /// How many are wanted where.
+    pub density: Option<Resource<Pixels>>,
+    /// Points that stay where they are; they are among the `n_points`, and come first.
+    pub fixed: Option<Resource<Positions>>,
+}
+
+impl Default for GenerateRequest {
+    fn default() -> Self {
+        Self {
+            n_points: None,
+            method: Method::default(),
+            parameters: Settings::default(),
+            start: None,
+            no_warp: false,
+            seed: 0,
+            space: Domain::default(),
+            metric: Metric::Input,
+            density: None,
+            fixed: None,
+        }
+    }
+}
+
+/// Better points from points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct OptimizeRequest {
+    /// The points.
+    pub points: Resource<Positions>,
+    /// How they are improved.
+    #[serde(default)]
+    #[cfg_attr(test, schemars(with = "crate::schema::MethodName"))]
+    pub method: Method,
+    /// What the method is told.
+    #[serde(default)]
+    #[cfg_attr(test, schemars(with = "crate::schema::Parameters"))]
+    pub parameters: Settings,
+    /// Not to even out points before they are optimised.
+    #[serde(default)]
+    pub no_warp: bool,
+    /// The same seed makes the same points.
+    #[serde(default)]
+    pub seed: u64,
+    /// Where they are.
+    #[serde(default)]
+    pub space: Domain,
+    /// In whose units distances count.
+    #[serde(default)]
+    pub metric: Metric,
+    /// How many are wanted where.
+    #[serde(default)]
+    pub density: Option<Resource<Pixels>>,
+    /// Points that stay where they are. They come first; points at their places are left out.
+    #[serde(default)]
+    pub fixed: Option<Resource<Positions>>,
+}
+
+/// Points, and how they came about.
+pub struct PointsOutcome {
+    /// The points, in the units in which distances count.
+    pub points: PointSet,
+    /// What the points of the unit square are restored to.
+    given: Option<PointSet>,
+    /// How they were made.
+    pub method: Method,
+    /// The same with what it was told; `None` of a method that makes points at once.
+    pub optimizer: Option<Box<dyn Optimizer>>,
+    /// What the optimiser did.
+    pub report: Option<Report>,
+    /// What the user should know.
+    pub notes: Vec<Message>,
+    is_cancelled: bool,
+}
+
+/// What points are worth.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PointsMeasured {
+    /// Absent for fewer than three points, or all on one line.
+    pub measures: Option<Measures>,
+    /// The targets that were not reached; absent for a method that has none.
+    pub unmet: Option<Vec<UnmetTarget>>,
+}
+
+/// How a job ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// All that was asked for is there, as far as the input allows it.
+    Done,
+    /// Something that was asked for was not reached.
+    Missed,
+    /// Somebody ended it.
+    Cancelled,
+}
+
+impl GenerateRequest {
+    /// Checks what can be checked without data.
+    ///
+    /// # Errors
+    /// Parameters that the method does not have, or outside their range; parts that do not go together; points that do not fit into memory.
+    pub fn check(&self) -> Result<(), Error> {
+        require_beginning(self.method, self.start, !self.no_warp)?;
+        let optimizer = optimizer(Job::Generate, self.method, &self.parameters, self.seed)?;
+        if self.density.is_some() {
+            require_density(self.method)?;
+        }
+        match self.n_points {
+            Some(n_points) => memory::require_points(n_points, self.method),
+            None if optimizer.is_some() => Err(missing_number().into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Makes the points.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check), for data that cannot be worked with, and as the method.
+    pub fn run(&self, resources: &mut dyn Resources, context: &mut Context) -> Result<PointsOutcome, Error> {
+        self.check()?;
+        let Self { n_points, method, parameters, seed, metric, .. } = self;
+        let optimizer = optimizer(Job::Generate, *method, parameters, *seed)?;
+        let (space, repairs) = self.space.space(resources)?;
+        let mut notes = Vec::new();
+        repairs.into_iter().for_each(|repair| context.note(&mut notes, repair));
+        let begin = self.start.unwrap_or(method.default_start(&space, self.density.is_some()));
+        if self.density.is_some() && optimizer.is_some() {
+            require_density_of_start(begin)?;
+        }
+        context.enter(Stage::Read);
+        let density = density_of(self.density.as_ref(), resources)?;
+        let given = fixed_of(self.fixed.as_ref(), &space, resources)?.with_density(&density);
+        let (fixed, given) = measured_in(*metric, given)?;
+        let made = PointsOutcome { points: fixed, given, method: *method, optimizer, report: None, notes, is_cancelled: false };
+        context.enter(Stage::Start);
+        match &made.optimizer {
+            Some(_) => {
+                let n_points = n_points.ok_or_else(missing_number)?;
+                let points = begin.start(&made.points, n_points, *seed)?;
+                // Only white noise has long density waves.
+                made.improved(points, begin.has_long_waves() && !self.no_warp, context)
+            }
+            None => {
+                let (points, note) = method.make(parameters, &made.points, *n_points, *seed)?;
+                let notes = made.notes.into_iter().chain(note.map(Message::from)).collect();
+                Ok(PointsOutcome { points, notes, ..made })
+            }
+        }
+    }
+}
+
+impl OptimizeRequest {
+    /// The same with the defaults.
+    pub fn of(points: Resource<Positions>) -> Self {
+        Self {
+            points,
+            method: Method::default(),
+            parameters: Settings::default(),
+            no_warp: false,
+            seed: 0,
+            space: Domain::default(),
+            metric: Metric::Input,
+            density: None,
+            fixed: None,
+        }
+    }
+
+    /// Checks what can be checked without data.
+    ///
+    /// # Errors
+    /// As [`GenerateRequest::check`].
+    pub fn check(&self) -> Result<(), Error> {
+        Job::Optimize.require("method", self.method)?;
+        require_beginning(self.method, None, !self.no_warp)?;
+        if self.density.is_some() {
+            require_density(self.method)?;
+        }
+        optimizer(Job::Optimize, self.method, &self.parameters, self.seed).map(drop)
+    }
+
+    /// Improves the points.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check), for data that cannot be worked with, and as the method.
+    pub fn run(&self, resources: &mut dyn Resources, context: &mut Context) -> Result<PointsOutcome, Error> {
+        self.check()?;
+        let (space, repairs) = self.space.space(resources)?;
+        let mut notes = Vec::new();
+        repairs.into_iter().for_each(|repair| context.note(&mut notes, repair));
+        let fixed = fixed_of(self.fixed.as_ref(), &space, resources)?;
+        context.enter(Stage::Read);
+        let (points, note) = positioned(&self.points, &space, resources)?;
+        note.into_iter().for_each(|note| context.note(&mut notes, note));
+        let points = joined(&fixed, points)?;
+        memory::require_points(points.n_points(), self.method)?;
+        let density = density_of(self.density.as_ref(), resources)?;
+        let (points, given) = measured_in(self.metric, points.with_density(&density))?;
+        let optimizer = optimizer(Job::Optimize, self.method, &self.parameters, self.seed)?;
+        let begin = PointSet::new(points.space(), Vec::new())?;
+        let made = PointsOutcome { points: begin, given, method: self.method, optimizer, report: None, notes, is_cancelled: false };
+        made.improved(points, !self.no_warp, context)
+    }
+}
+
+impl PointsOutcome {
+    /// Lets the optimiser improve points, evened out first if it is wanted and suits it. What came in is kept where it was nearer to the targets.
+    fn improved(self, mut points: PointSet, is_warped: bool, context: &mut Context) -> Result<Self, Error> {
+        let Self { given, method, optimizer, mut notes, .. } = self;
+        let Some(method_told) = optimizer.as_deref() else {
+            return Ok(Self { points, given, method, optimizer, report: None, notes, is_cancelled: false });
+        };
+        let warp = warp_for(&points, method_told, is_warped);
+        let start = (warp.is_some() && method_told.targets().is_some()).then(|| points.clone());
+        if let Some(warp) = warp {
+            context.enter(Stage::Warp);
+            warp(&mut points);
+        }
+        if let Some(advice) = method_told.targets().and_then(|targets| targets.advice(&points)) {
+            context.note(&mut notes, advice.into());
+        }
+        let report = context.run(|run| method_told.run(&mut points, run))?;
+        for note in notes_on(&report) {
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
+        // Whoever has ended it wants the state reached, and soon.
+        let is_cancelled = report.outcome == Outcome::Cancelled || context.is_cancelled();
+        if let Some(start) = start.filter(|_| !is_cancelled) {
+            context.enter(Stage::Measure);
+            if is_nearer(&start, &points, &report, method_told) {
+                notes.push("the points that came in miss the targets by less, and are written".into());
+                points = start;
+            }
+        }
+        Ok(Self { points, given, method, optimizer, report: Some(report), notes, is_cancelled })
+    }
+
+    /// The points in the units that they were given in.
+    ///
+    /// # Errors
+    /// As [`PointSet::restored_to`].
+    pub fn restored(&self) -> Result<PointSet, Error> {
+        Ok(match &self.given {
+            Some(given) => self.points.restored_to(given)?,
+            None => self.points.clone(),
+        })
+    }
+
+    /// Whether the points were given in other units than those in which distances count.
+    pub fn is_restored(&self) -> bool {
+        self.given.is_some()
+    }
+
+    /// The domain, in the units that it was given in.
+    pub fn space(&self) -> &Space {
+        self.given.as_ref().unwrap_or(&self.points).space()
+    }
+
+    /// Whether it can be said that something was not reached.
+    pub fn has_targets(&self) -> bool {
+        self.optimizer.as_ref().is_some_and(|optimizer| optimizer.targets().is_some())
+    }
+
+    /// Measures the points.
+    pub fn measured(&self) -> PointsMeasured {
+        let measures = measure(&self.points).ok();
+        let targets = self.optimizer.as_ref().and_then(|optimizer| optimizer.targets());
+        let unmet = targets.zip(measures.as_ref()).map(|(targets, measures)| targets.unmet(measures));
+        PointsMeasured { measures, unmet }
+    }
+
+    /// How the job ended; without measures, as the report says.
+    pub fn ending(&self, measured: Option<&PointsMeasured>) -> Ending {
+        let unmet = measured.and_then(|measured| measured.unmet.as_ref());
+        match self.report.as_ref().map(|report| report.outcome) {
+            _ if self.is_cancelled => Ending::Cancelled,
+            Some(Outcome::Forced) => Ending::Done,
+            _ if unmet.is_some_and(|unmet| !unmet.is_empty()) => Ending::Missed,
+            Some(Outcome::IterationLimit | Outcome::LostToRounding) if unmet.is_none() => Ending::Missed,
+            _ => Ending::Done,
+        }
+    }
+
+    /// Whether somebody has ended it.
+    pub fn is_cancelled(&self) -> bool {
+        self.is_cancelled
+    }
+}
+
+impl PointsMeasured {
+    /// The angles between which beta certifies those of all triangles to lie, if there are any.
+    pub fn certified_angles_deg(&self) -> Option<[f64; 2]> {
+        let measures = self.measures.as_ref()?;
+        angle_bounds_deg(measures.beta).filter(|_| !measures.angle_rms_deg.is_nan())
+    }
+}
+
+/// What evens out these points first, if anything.
+pub(crate) fn warp_for(points: &PointSet, optimizer: &dyn Optimizer, is_wanted: bool) -> Option<fn(&mut PointSet)> {
+    // By a density every method begins with points that follow it.
+    let by_density = (!points.density().is_uniform()).then_some(warp_isotropic as fn(&mut PointSet));
+    let can_warp = is_wanted && points.n_points() >= 3 && points.space().region().is_none();
+    optimizer.method().warp().or(by_density).filter(|_| can_warp)
+}
+
+/// Whether points that came in miss the targets by less than what a run has made of them, all points taken together.
+fn is_nearer(start: &PointSet, made: &PointSet, report: &Report, optimizer: &dyn Optimizer) -> bool {
+    let targets = optimizer.targets().filter(|_| report.outcome != Outcome::Converged);
+    targets.is_some_and(|targets| targets.total_miss(start) < targets.total_miss(made))
+}
+
+/// What the user should know of a run.
+fn notes_on(report: &Report) -> Vec<Message> {
+    let mut notes: Vec<Message> = report.notes.iter().cloned().map(Message::from).collect();
+    if report.coincident_points > 0 {
+        notes.push(format!("{} points shared their place with another and were moved apart", report.coincident_points).into());
+    }
+    if report.was_collinear {
+        notes.push("all points lay on or near one line and were spread first".into());
+    }
+    notes
+}
+
+fn missing_number() -> evenly::Error {
+    evenly::Error::Missing { names: &["n_points"], question: "how many?" }
+}
+
+/// The density; uniform if none is given.
+pub(crate) fn density_of(density: Option<&Resource<Pixels>>, resources: &mut dyn Resources) -> Result<Density, Error> {
+    density.map_or(Ok(Density::uniform()), |density| density.get(resources))
+}
+
+/// The points that stay; none, if none are given.
+fn fixed_of(fixed: Option<&Resource<Positions>>, space: &Space, resources: &mut dyn Resources) -> Result<PointSet, Error> {
+    let positions = fixed.map_or(Ok(Vec::new()), |fixed| fixed.get(resources))?;
+    let n_fixed = positions.len();
+    let points = PointSet::new(space, positions).and_then(|points| points.with_fixed(n_fixed));
+    points.map_err(|error| Error::of(error, called(fixed), &[("n_fixed", "fixed")]))
+}
+
+/// Points in a domain, and a note if some lay outside of a torus.
+///
+/// # Errors
+/// As [`Resources::positions`] and [`PointSet::new`].
+pub fn positioned(
+    points: &Resource<Positions>,
+    space: &Space,
+    resources: &mut dyn Resources,
+) -> Result<(PointSet, Option<Message>), Error> {
+    let positions = points.get(resources)?;
+    let n_outside = positions.iter().filter(|p| is_outside(space, p)).count();
+    let set = PointSet::new(space, positions).map_err(|error| Error::of(error, points.called(), &[]))?;
+    let [lie, were] =
+        if n_outside == 1 { ["1 point lies".to_owned(), "was".into()] } else { [format!("{n_outside} points lie"), "were".into()] };
+    let note = Message::from(format!("{lie} outside the torus {space} and {were} wrapped into it; are ")).name("size").text(" and ");
+    Ok((set, (n_outside > 0).then(|| note.name("origin").text(" right?"))))
+}
+
+fn is_outside(space: &Space, p: &[f64; 2]) -> bool {
+    let (origin, size) = (space.origin(), space.size());
+    (0..2).any(|axis| p[axis] < origin[axis] || p[axis] > origin[axis] + size[axis])
+}
+
+/// Points that stay, and after them the others that do not share a place with one.
+fn joined(fixed: &PointSet, points: PointSet) -> Result<PointSet, Error> {
+    if fixed.n_points() == 0 {
+        return Ok(points);
+    }
+    let bits = |p: &[f64; 2]| p.map(|x| (x + 0.0).to_bits());
+    let taken: HashSet<[u64; 2]> = fixed.positions().iter().map(bits).collect();
+    let others = points.positions().iter().filter(|p| !taken.contains(&bits(p)));
+    let all = fixed.positions().iter().chain(others).copied().collect();
+    Ok(PointSet::new(points.space(), all)?.with_fixed(fixed.n_points())?)
+}
+
+/// The points as distances count, and as they were given if that differs.
+pub(crate) fn measured_in(metric: Metric, points: PointSet) -> Result<(PointSet, Option<PointSet>), Error> {
+    match metric {
+        Metric::Input => Ok((points, None)),
+        Metric::Unit => Ok((points.in_unit_square()?, Some(points))),
+    }
+}
