@@ -63,7 +63,7 @@ fn optimising_improves_points_where_they_are() {
     let shell = Shell::new();
     let place = "--space rect --size 640,480 --origin -100,1e6";
     shell.ok(&format!("generate -n 800 --method white {place} -o in.csv"));
-    shell.ok(&format!("optimize in.csv {place} -o out.csv"));
+    shell.ok(&format!("optimize in.csv -m procrustes {place} -o out.csv"));
     let angle = |name: &str| json(&shell.ok(&format!("analyze {name} {place} --json")))["angle_rms_deg"].as_f64().unwrap();
     assert!(angle("in.csv") > 20.0 && angle("out.csv") < 12.0);
     shell.ok(&format!("optimize in.csv --method warp {place} -o warped.csv"));
@@ -83,7 +83,7 @@ fn methods_and_sizes_have_short_forms() {
 #[test]
 fn the_report_holds_the_whole_run() {
     let shell = Shell::new();
-    shell.ok("generate -n 1000 --seed 5 --mode paper --side 1.25 -o a.txt --report run.json");
+    shell.ok("generate -n 1000 -m procrustes --seed 5 --mode paper --side 1.25 -o a.txt --report run.json");
     let report = json(&shell.read("run.json"));
     assert_eq!(report["method"], "procrustes");
     assert_eq!(report["seed"], 5);
@@ -208,10 +208,57 @@ fn few_points_are_no_trouble() {
 #[test]
 fn what_is_not_reached_is_written_and_said() {
     let shell = Shell::new();
-    let output = shell.run("generate -n 1000 -i 3 -o a.txt");
+    let output = shell.run("generate -n 1000 -m procrustes -i 3 -o a.txt");
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("not converged in 3 iterations"));
     assert!(shell.read("a.txt").lines().count() > 1000);
+    // What the default method aims at is no wish: it is said, and no failure.
+    let output = shell.run("generate -n 3 -o b.txt");
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("not reached: min distance"));
+    assert_eq!(shell.run("generate -n 3 --min-distance 0.85 -o c.txt").status.code(), Some(1));
+}
+
+#[test]
+fn lengths_may_be_in_input_units() {
+    let shell = Shell::new();
+    shell.ok("generate -n 1000 --size 640,480 --min-distance 15u -o a.csv --report run.json");
+    let record = json(&shell.read("run.json"));
+    let of = |part: &str, name: &str| record[part][name].as_f64().unwrap();
+    assert!(of("lengths", "min_distance") >= 15.0 - 1e-4 && of("parameters", "min_distance") < 0.8);
+    assert!((of("lengths", "min_distance") - of("measures", "min_distance") * of("measures", "hex_spacing")).abs() < 1e-9);
+    shell.ok("optimize a.csv --size 640x480 -m farthest-point --min-distance 15.5u -o b.csv");
+    shell.ok("generate -m poisson-disk --spacing 0.05u -o c.csv");
+    shell.write("l.txt", "0 0\n2 0\n2 1\n1 1\n1 2\n0 2\n");
+    shell.ok("mesh l.txt --edge-length 0.1u --min-distance 0.08u -o a.msh");
+    for (line, expected) in [
+        ("generate -n 10 --min-distance 5km -o o.csv", "inputs have no units"),
+        ("mesh l.txt --edge-length 5km -o o.msh", "inputs have no units"),
+        ("generate -n 10 -m lloyd -i 5u -o o.csv", "it must be a count"),
+        ("generate -n 10 -m opt-beta --beta 1u -o o.csv", "--beta is 1u; it must be a number alone"),
+        ("mesh l.txt --edge-length 0.1 --grade 0.2 --min-distance 0.08u -o o.msh", "where spacings vary it must be in spacings"),
+    ] {
+        let said = shell.refused(line);
+        assert!(said.contains(expected), "{line}: {said}");
+    }
+}
+
+/// As many ask for: 60 points in a triangle, 8 of which stay.
+#[test]
+fn points_around_others_are_far_apart_and_the_way_to_more_is_said() {
+    let shell = Shell::new();
+    shell.write("triangle.txt", "0 0\n1 0\n0.5 0.9\n");
+    shell.write("fixed.txt", "0.3 0.1\n0.5 0.2\n0.7 0.1\n0.5 0.5\n0.4 0.3\n0.6 0.33\n0.5 0.7\n0.2 0.05\n");
+    let of = |flags: &str| {
+        let line = format!("generate -n 60 --space triangle.txt --fixed fixed.txt {flags} --force -o out.csv --report run.json");
+        let output = shell.run(&line);
+        assert_eq!(output.status.code(), Some(0), "{line}");
+        let distance = json(&shell.read("run.json"))["measures"]["min_distance"].as_f64().unwrap();
+        (distance, String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (default, said) = of("");
+    assert!(said.contains("at fixed points miss a target") && said.contains("farthest-point makes the smallest distance"), "{said}");
+    assert!(of("-m procrustes").0 < default && default < of("-m farthest-point").0);
 }
 
 #[test]
@@ -264,7 +311,7 @@ fn bad_input_gets_one_line_and_no_file() {
         ("generate -n 10 -o o.txt --size -1,1", "-1 x 1"),
         ("generate -n 10 -o o.txt --size 1", "two numbers"),
         ("generate -n 10 -o o.txt --origin inf,0", "finite"),
-        ("generate -n 10 -o o.txt --side 0", "--side is 0"),
+        ("generate -n 10 -m procrustes -o o.txt --side 0", "--side is 0"),
         ("generate -n 10 -o o.txt --tolerance -1", "tolerance"),
         ("generate -n 10 -o o.txt -i 0", "--iterations is 0"),
         ("generate -n 10 -o o.txt --method nonsense", "nonsense"),
@@ -281,7 +328,7 @@ fn bad_input_gets_one_line_and_no_file() {
         ("generate -n 10 -o o.txt --method push-pull -i 0", "--iterations is 0"),
         ("generate -n 10 -o o.txt --method push-pull --preset nonsense", "nonsense"),
         ("generate -n 10 -o o.txt --method push-pull --side 1", "--side is for --method procrustes"),
-        ("generate -n 10 -o o.txt --preset tough", "--preset is for --method push-pull"),
+        ("generate -n 10 -m lloyd -o o.txt --preset tough", "--preset is for --method push-pull"),
         ("generate -n 10 -o o.txt --method well-spaced --beta 0.5", "--beta is 0.5"),
         ("generate -n 10 -o o.txt --method well-spaced --relaxation 1.1", "--relaxation is for --method push-pull"),
         ("generate -n 10 -o o.txt --method push-pull --beta 0.75", "--beta is for --method well-spaced"),
@@ -394,7 +441,7 @@ fn a_full_disk_leaves_nothing_behind() {
 #[test]
 fn an_interrupt_writes_the_best_state() {
     let shell = Shell::new();
-    let line = "generate -n 300000 --mode paper --no-warp --tolerance 1e-9 -i 100000 -o a.npy --report run.json";
+    let line = "generate -n 300000 -m procrustes --mode paper --no-warp --tolerance 1e-9 -i 100000 -o a.npy --report run.json";
     let child = shell.command(line).stderr(Stdio::piped()).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_secs(4));
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
@@ -411,7 +458,7 @@ fn an_interrupt_writes_the_best_state() {
 fn other_signals_write_the_best_state_too() {
     for (signal, code) in [("-TERM", 143), ("-HUP", 129)] {
         let shell = Shell::new();
-        let line = "generate -n 300000 --mode paper --no-warp --tolerance 1e-9 -i 100000 -o a.npy";
+        let line = "generate -n 300000 -m procrustes --mode paper --no-warp --tolerance 1e-9 -i 100000 -o a.npy";
         let child = shell.command(line).stderr(Stdio::piped()).spawn().unwrap();
         std::thread::sleep(std::time::Duration::from_secs(4));
         Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
@@ -546,7 +593,7 @@ fn a_run_keeps_within_its_memory() {
         let said = shell.refused(line);
         assert!(said.contains(expected), "{line}: {said}");
     };
-    refused("generate -n 10000000 --memory 500MB -o out.txt", "10000000 points by procrustes take about 4.5 GB of memory");
+    refused("generate -n 10000000 --memory 500MB -o out.txt", "10000000 points by push-pull take about 4.5 GB of memory");
     refused("generate -n 3 --memory 8X -o out.txt", "--memory");
 
     // Of 100 kB that are put in a thousand times.

@@ -147,7 +147,7 @@ fn a_zone_plate_tells_noise_from_aliasing() {
 #[test]
 fn a_bilateral_filter_needs_few_samples_and_any_picture() {
     let shell = Shell::new();
-    shell.ok("generate -n 500 -q -o even.txt");
+    shell.ok("generate -n 500 -m procrustes -q -o even.txt");
     shell.ok("generate -n 500 --method white -q -o white.txt");
     // Any picture will do, such as one of our own.
     shell.ok("generate -n 50 -q -o picture.png --draw valence");

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 use evenly::Method;
 use evenly_io::MeshFormat;
-use evenly_jobs::{MeshRequest, push_pull};
+use evenly_jobs::MeshRequest;
 
 use crate::files::Files;
 use crate::method::{MethodArgs, OnMeshes, parser};
-use crate::parse::parse_count;
+use crate::parse::{parse_count, parse_length};
 use crate::shared_args::{DensityArgs, LongArgs};
 
 #[derive(Args)]
@@ -46,7 +46,7 @@ pub struct Mesh {
     #[arg(long, help_heading = "Constraints")]
     pub regions: bool,
     /// How far off flattened curves of an SVG may be, in its units [default: a thousandth of its size]
-    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Constraints")]
+    #[arg(long, value_name = "T", value_parser = parse_length, allow_negative_numbers = true, help_heading = "Constraints")]
     pub curve_tolerance: Option<f64>,
     /// The vertices' Voronoi cells, clipped at the border, as .geojson
     #[arg(long, value_name = "OUT", help_heading = "Output")]
@@ -66,19 +66,19 @@ pub struct Mesh {
 #[command(group = ArgGroup::new("size").required(true).args(["edge_length", "n_triangles"]))]
 pub struct MeshWishes {
     /// The wanted length of edges, in the polygon's units; shorter where the border is detailed or the domain narrow
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = parse_length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
     /// About how many triangles, instead; there are more where the border is detailed
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_triangles: Option<usize>,
     /// Fewer corners first: no place of the border goes farther than this, in the polygon's units; rings and areas stay
-    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
+    #[arg(long, value_name = "TOL", value_parser = parse_length, allow_negative_numbers = true)]
     pub simplify: Option<f64>,
     /// The same seed gives the same mesh
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     /// How points find their places: on the border they move along it
-    #[arg(short, long, default_value_t = push_pull(), value_parser = parser::<OnMeshes>(), help_heading = "Method")]
+    #[arg(short, long, default_value_t = Method::default(), value_parser = parser::<OnMeshes>(), help_heading = "Method")]
     pub method: Method,
     #[command(flatten)]
     pub method_args: MethodArgs<OnMeshes>,
@@ -86,7 +86,7 @@ pub struct MeshWishes {
     #[arg(long, value_name = "G", allow_negative_numbers = true, help_heading = "Size")]
     pub grade: Option<f64>,
     /// The longest edges wanted, where they grow [default: no limit with --grade]
-    #[arg(long, value_name = "H", allow_negative_numbers = true, requires = "grade", help_heading = "Size")]
+    #[arg(long, value_name = "H", value_parser = parse_length, allow_negative_numbers = true, requires = "grade", help_heading = "Size")]
     pub max_edge_length: Option<f64>,
     #[command(flatten)]
     pub density: DensityArgs,

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use evenly::{About, Group, Method, ParameterKind, Setting, Settings};
+use evenly::{About, Group, Method, ParameterKind, Setting, Settings, Unit};
 use evenly_jobs::{Compared, Job, names};
 
 use crate::wording::told;
@@ -131,7 +131,7 @@ fn argument(about: About, help: &Help) -> Arg {
             let values = choices.iter().map(|choice| PossibleValue::new(choice.name).help(choice.doc));
             arg.value_name(about.name.to_uppercase()).value_parser(PossibleValuesParser::new(values).map(Setting::Choice))
         }
-        ParameterKind::Number => with_value(arg, about, ValueParser::new(|text: &str| number(text).map(Setting::Number))),
+        ParameterKind::Number => with_value(arg, about, ValueParser::new(number)),
         ParameterKind::Target => with_value(arg, about, ValueParser::new(target)),
         ParameterKind::Count => with_value(arg, about, ValueParser::new(count)),
     }
@@ -152,7 +152,7 @@ pub fn parse_compared(text: &str) -> Result<Compared, String> {
         let known = method.parameters().into_iter().find(|(about, _)| about.name == name);
         let (about, _) = known.ok_or_else(|| format!("{method} has no {flag}; evenly methods {method} lists what it has"))?;
         let value = match about.kind {
-            ParameterKind::Number => number(value).map(Setting::Number),
+            ParameterKind::Number => number(value),
             ParameterKind::Target => target(value),
             ParameterKind::Count => count(value),
             ParameterKind::Flag if value == "on" => Ok(Setting::On),
@@ -161,16 +161,16 @@ pub fn parse_compared(text: &str) -> Result<Compared, String> {
         };
         settings.set(about.name, value.map_err(|why| format!("{word}: {why}"))?);
     }
-    method.optimizer(&settings, 0).map_err(|error| told(error).to_string())?;
+    Job::Generate.check(method, &settings).map_err(|error| told(error).to_string())?;
     Ok(Compared { label: text.into(), method, parameters: settings })
 }
 
-fn number(text: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| "it must be a number".into())
+fn number(text: &str) -> Result<Setting, String> {
+    text.parse()
 }
 
 fn target(text: &str) -> Result<Setting, String> {
-    if text == "off" { Ok(Setting::Off) } else { number(text).map(Setting::Number).map_err(|why| format!("{why}, or off")) }
+    if text == "off" { Ok(Setting::Off) } else { number(text).map_err(|why| format!("{why}, or off")) }
 }
 
 fn count(text: &str) -> Result<Setting, String> {
@@ -212,6 +212,9 @@ fn help<O: Offered>(takers: &[Taker]) -> Help {
     };
     if takers.iter().all(|(_, about, _)| about.kind == ParameterKind::Target) {
         short += "; or off";
+    }
+    if takers.iter().any(|(_, about, _)| about.unit == Unit::Spacings) {
+        short += "; 8u is 8 input units";
     }
     let defaults = grouped(takers, |(_, about, default)| match default {
         _ if !about.default.is_empty() => about.default.to_owned(),

@@ -1,6 +1,6 @@
 //! Values of flags that several verbs read the same way.
 
-use evenly::MAX_POINTS;
+use evenly::{MAX_POINTS, Setting};
 use evenly_io::Format;
 
 /// A number of points.
@@ -13,6 +13,18 @@ pub fn parse_count(text: &str) -> Result<usize, String> {
     match number {
         Some(n) if (1..=MAX_POINTS).contains(&n) => Ok(n),
         _ => Err(format!("it must be a whole number from 1 to {MAX_POINTS}")),
+    }
+}
+
+/// A length in input units, which have no name: `5` or `5u`.
+pub fn parse_length(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(Setting::Number(length) | Setting::Length(length)) => Ok(length),
+        Ok(_) => Err("it must be a number".into()),
+        Err(_) if text.starts_with(|c: char| c.is_ascii_digit()) => {
+            Err("inputs have no units: it must be a number alone, in the input's own".into())
+        }
+        Err(why) => Err(why),
     }
 }
 

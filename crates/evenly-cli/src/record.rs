@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use std::sync::OnceLock;
 
 use evenly::{Measures, Optimizer, Report, Space, UnmetTarget};
+use evenly_jobs::PointsLengths;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -27,6 +28,9 @@ pub struct Record {
     /// Absent for fewer than three points, or all on one line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
+    /// The smallest distance and the coverage radius in units; absent where the density varies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lengths: Option<PointsLengths>,
     /// Between which beta certifies all angles to lie; absent from 1 on, and without triangles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_bounds_deg: Option<[f64; 2]>,

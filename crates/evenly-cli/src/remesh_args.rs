@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 use evenly::Method;
 use evenly_io::{CloudFormat, MeshFormat};
-use evenly_jobs::{OrOff, RemeshRequest, Resource, SampleRequest, is_resource, push_pull};
+use evenly_jobs::{OrOff, RemeshRequest, Resource, SampleRequest, is_resource};
 
 use crate::files::Files;
 use crate::mesh_args::parse_mesh_format;
 use crate::method::{MethodArgs, OnMeshes, OnSurfaces, parser};
-use crate::parse::parse_count;
+use crate::parse::{parse_count, parse_length};
 use crate::shared_args::LongArgs;
 
 #[derive(Args)]
@@ -55,7 +55,7 @@ pub struct RemeshWishes {
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true, conflicts_with = "edge_length")]
     pub n_vertices: Option<usize>,
     /// The length of edges, in the input's units, instead; with a density their mean
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = parse_length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
     /// Points at which vertices begin, as many as are wanted or more: .csv or .txt with x y z, .ply, or the vertices of a mesh; -n is their number unless given
     #[arg(long, value_name = "FILE")]
@@ -64,7 +64,7 @@ pub struct RemeshWishes {
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     /// How vertices find their places; those of eliminate stay at the start: sample elimination, or --points
-    #[arg(short, long, default_value_t = push_pull(), value_parser = parser::<OnMeshes>(), help_heading = "Method")]
+    #[arg(short, long, default_value_t = Method::default(), value_parser = parser::<OnMeshes>(), help_heading = "Method")]
     pub method: Method,
     /// What the method is told; passes are as many again after vertices are put or let go
     #[command(flatten)]
@@ -88,7 +88,7 @@ pub struct RemeshWishes {
     #[arg(long, help_heading = "Shape")]
     pub repair: bool,
     /// Make one of corners that lie within this distance of each other, in the input's units
-    #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = "Shape")]
+    #[arg(long, value_name = "D", value_parser = parse_length, allow_negative_numbers = true, help_heading = "Shape")]
     pub weld: Option<f64>,
 }
 
@@ -198,10 +198,10 @@ pub struct SampleWishes {
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_points: Option<usize>,
     /// The smallest distance of two points, for poisson-disk; else their usual one
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = parse_length, allow_negative_numbers = true)]
     pub spacing: Option<f64>,
     /// How they are spread
-    #[arg(short, long, default_value_t = push_pull(), value_parser = parser::<OnSurfaces>(), help_heading = "Method")]
+    #[arg(short, long, default_value_t = Method::default(), value_parser = parser::<OnSurfaces>(), help_heading = "Method")]
     pub method: Method,
     /// What the method is told.
     #[command(flatten)]
@@ -216,7 +216,7 @@ pub struct SampleWishes {
     #[arg(long)]
     pub repair: bool,
     /// Make one of corners that lie within this distance of each other, in the input's units
-    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", value_parser = parse_length, allow_negative_numbers = true)]
     pub weld: Option<f64>,
 }
 

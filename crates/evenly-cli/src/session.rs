@@ -140,6 +140,7 @@ impl<'a> Session<'a> {
             seconds: self.seconds,
             angle_bounds_deg: measured.as_ref().and_then(PointsMeasured::certified_angles_deg),
             measures: measures.cloned(),
+            lengths: measured.as_ref().and_then(|measured| measured.lengths),
             unmet,
             notes: self.notes,
         };
@@ -176,8 +177,11 @@ impl<'a> Session<'a> {
                 format!("angles {:.1} to {:.1} degrees (rms {:.2} from 60)", m.min_angle_deg, m.max_angle_deg, m.angle_rms_deg)
             };
             let (spacing, beta) = (m.hex_spacing, m.beta);
+            let units = measured
+                .and_then(|measured| measured.lengths)
+                .map_or_else(String::new, |lengths| format!(" ({:.4e} and {:.4e} units)", lengths.min_distance, lengths.coverage_radius));
             say(format_args!(
-                "in hexagonal spacings of {spacing:.4e}: min distance {:.3}, coverage radius {:.3}, beta {beta:.3}; {angles}",
+                "in hexagonal spacings of {spacing:.4e}: min distance {:.3}, coverage radius {:.3}{units}, beta {beta:.3}; {angles}",
                 m.min_distance, m.coverage_radius
             ));
         }

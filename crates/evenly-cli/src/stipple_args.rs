@@ -30,7 +30,7 @@ pub struct Stipple {
     #[arg(long, value_parser = parse_format)]
     pub format: Option<Format>,
     /// How dots are spread; poisson-disk, eliminate and white are no optimisers
-    #[arg(short, long, default_value = "push-pull", value_parser = parser::<ByDensity>())]
+    #[arg(short, long, default_value_t = Method::default(), value_parser = parser::<ByDensity>())]
     pub method: Method,
     /// What the method is told; passes of push-pull, well-spaced and capacity are 60 unless they are given
     #[command(flatten)]

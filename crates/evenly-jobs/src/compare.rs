@@ -2,14 +2,14 @@
 
 use std::time::Instant;
 
-use evenly::{Measures, Method, Outcome, PointSet, Settings, Space, measure};
+use evenly::{Measures, Method, Outcome, PointSet, Settings, Space, hexagonal_spacing, measure};
 use serde::{Deserialize, Serialize};
 
 use crate::context::{Context, Event, Stage};
 use crate::error::Error;
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, optimizer, require_density, require_density_of_start};
+use crate::method::{Job, in_spacings, require_density, require_density_of_start};
 use crate::points::{density_of, measured_in, positioned, warp_for};
 use crate::resource::{Pixels, Positions, Resource, Resources};
 use crate::space::{Domain, Metric};
@@ -186,7 +186,7 @@ impl CompareRequest {
         }
         // What is wrong with a parameter is said before the work begins.
         for each in &compared {
-            optimizer(Job::Generate, each.method, &self.told(each), self.seed)?;
+            Job::Generate.check(each.method, &self.told(each))?;
             memory::require_points(n_points, each.method)?;
         }
         let start = self.start.unwrap_or(Method::default().default_start(&space, self.density.is_some()));
@@ -227,7 +227,9 @@ impl CompareRequest {
         if context.is_cancelled() {
             return Ok(None);
         }
-        let (method, settings) = (compared.method, self.told(compared));
+        let method = compared.method;
+        let spacing = hexagonal_spacing(begin.space.area(), begin.n_points as f64);
+        let settings = in_spacings(method, &self.told(compared), begin.density.is_uniform().then_some(spacing))?;
         let optimizer = method.optimizer(&settings, seed)?;
         let mut points = match (&optimizer, &begin.given) {
             (Some(_), Some(given)) => given.clone(),

@@ -17,7 +17,7 @@ use self::unmet::{forced, unmet};
 use crate::context::{Context, Stage};
 use crate::error::Error;
 use crate::message::Message;
-use crate::method::{Job, on_meshes, push_pull};
+use crate::method::{Job, check_on_meshes, in_spacings, on_meshes};
 use crate::points::Ending;
 use crate::resource::{Data as _, Lengths, Lines, Pixels, Positions, Regions, Resource, Resources, Rings, called};
 
@@ -71,7 +71,7 @@ impl Default for MeshRequest {
             n_triangles: None,
             simplify: None,
             seed: 0,
-            method: push_pull(),
+            method: Method::default(),
             parameters: Settings::default(),
             grade: None,
             max_edge_length: None,
@@ -135,7 +135,7 @@ impl MeshRequest {
     /// Sizes and parts that do not go together, and what the method is told wrongly.
     pub fn check(&self) -> Result<(), Error> {
         Job::Mesh.require("method", self.method)?;
-        self.local_method()?;
+        check_on_meshes(self.method, &self.parameters)?;
         if self.edge_length.is_some() == self.n_triangles.is_some() {
             let either = Message::from("give either ").name("edge_length").text(" or ").name("n_triangles");
             return Err(either.into());
@@ -171,7 +171,6 @@ impl MeshRequest {
         let sizes = self.sizes.as_ref().map(|sizes| sizes.get(resources)).transpose()?;
         let density = self.density.as_ref().map(|density| density.get(resources)).transpose()?;
 
-        let method = self.local_method()?;
         let of_triangles = |n: usize| triangle_side(polygon.area(), n as f64);
         let mut edge_length = self.edge_length.unwrap_or_else(|| of_triangles(self.n_triangles.unwrap_or(1)));
         let mut notes = Vec::new();
@@ -179,8 +178,11 @@ impl MeshRequest {
         let own = self.simplified(&polygon, edge_length, &mut notes, context)?;
         let growth = self.grade.unwrap_or(MeshParams::new(edge_length).growth);
         let sizes = Sizes::new(sizes, density, &own, growth)?;
+        let is_uniform = sizes.is_none() && self.grade.is_none();
+        let method_of = |edge_length: f64| self.local_method(is_uniform.then_some(edge_length));
+        let mut method = method_of(edge_length)?;
         let wanted = |edge_length: f64| sizes.as_ref().map(|sizes| move |place: [f64; 2]| sizes.at(place, edge_length));
-        let params_of = |edge_length: f64| MeshParams {
+        let params_of = |edge_length: f64, method: &Option<LocalMethod>| MeshParams {
             growth,
             max_edge_length: match (self.grade, self.max_edge_length) {
                 (None, _) => sizes.as_ref().map(|sizes| sizes.largest(edge_length).max(edge_length)),
@@ -197,11 +199,11 @@ impl MeshRequest {
             seed: self.seed,
             ..MeshParams::new(edge_length)
         };
-        params_of(edge_length).validate().map_err(|error| self.named(error))?;
+        params_of(edge_length, &method).validate().map_err(|error| self.named(error))?;
         if let Some(n_triangles) = self.n_triangles {
             for _ in 0..ESTIMATES {
                 let wanted = wanted(edge_length);
-                let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(edge_length) };
+                let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(edge_length, &method) };
                 let expected = expected_triangles(&own, &params).map_err(|error| self.named(error))?;
                 // Where details take most of them, larger triangles elsewhere save little.
                 let before = edge_length;
@@ -211,8 +213,9 @@ impl MeshRequest {
                 }
             }
         }
+        method = method_of(edge_length)?;
         let wanted = wanted(edge_length);
-        let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(edge_length) };
+        let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(edge_length, &method) };
         let (mesh, report) = context.run(|run| mesh(&own, &params, run)).map_err(|error| self.named(error))?;
         notes.extend(report.notes.iter().cloned().map(Message::from));
         if self.grade.is_none() && params.wanted.is_none() && report.outcome != Outcome::Cancelled {
@@ -263,14 +266,15 @@ impl MeshRequest {
     }
 
     /// The method with its parameters; `None` where nothing is said of push-pull: its targets then suit the demands.
-    fn local_method(&self) -> Result<Option<LocalMethod>, Error> {
-        if self.method != push_pull() || LENGTHS.iter().any(|name| self.parameters.get(name).is_some()) {
-            return on_meshes(self.method, &self.parameters, self.seed).map(Some);
+    fn local_method(&self, edge_length: Option<f64>) -> Result<Option<LocalMethod>, Error> {
+        let parameters = in_spacings(self.method, &self.parameters, edge_length)?;
+        if self.method != Method::default() || LENGTHS.iter().any(|name| parameters.get(name).is_some()) {
+            return on_meshes(self.method, &parameters, self.seed).map(Some);
         }
-        if self.parameters.is_empty() {
+        if parameters.is_empty() {
             return Ok(None);
         }
-        on_meshes(self.method, &MeshParams::usual_targets(self.no_obtuse).overlaid(&self.parameters), self.seed).map(Some)
+        on_meshes(self.method, &MeshParams::usual_targets(self.no_obtuse).overlaid(&parameters), self.seed).map(Some)
     }
 
     /// The smallest angle that targets imply that were given, in degrees.

@@ -1,6 +1,6 @@
 //! Which methods a job offers, what they are told, and the registry as JSON.
 
-use evenly::{About, LocalMethod, Method, Optimizer, ParameterKind, Setting, Settings};
+use evenly::{About, LocalMethod, Method, Optimizer, ParameterKind, Setting, Settings, Unit};
 use serde_json::{Value, json};
 
 use crate::error::{Error, names};
@@ -66,15 +66,58 @@ impl Job {
         }
     }
 
+    /// Checks what a method is told, before any spacing is known.
+    ///
+    /// # Errors
+    /// [`Error::NotTaken`] for a parameter of other methods, and as [`Method::optimizer`].
+    pub fn check(self, method: Method, settings: &Settings) -> Result<(), Error> {
+        self.require_taken(settings, &[method])?;
+        method.in_spacings(settings, 1.0)?;
+        method.optimizer(&without_lengths(settings), 0)?;
+        Ok(())
+    }
+
     /// Refuses a method by which it cannot be done.
     pub(crate) fn require(self, parameter: &'static str, method: Method) -> Result<(), Error> {
         if self.offers(method) { Ok(()) } else { Err(Error::NotOffered { parameter, method, offered: self.methods() }) }
     }
 }
 
-/// The method where a job with meshes or pictures asks for none.
-pub fn push_pull() -> Method {
-    Method::named("push-pull").unwrap_or_default()
+/// What a method is told, with lengths in input units as spacings, which are so long; `None` where they vary.
+///
+/// # Errors
+/// A length for what counts none, or where spacings vary.
+pub(crate) fn in_spacings(method: Method, settings: &Settings, spacing: Option<f64>) -> Result<Settings, Error> {
+    let told = method.in_spacings(settings, spacing.unwrap_or(1.0))?;
+    let is_relative = |name: &str| method.parameters().iter().any(|(about, _)| about.name == name && about.unit == Unit::Spacings);
+    let is_length = |name: &&str| matches!(settings.get(name), Some(Setting::Length(_))) && is_relative(name);
+    match settings.names().find(is_length).filter(|_| spacing.is_none()) {
+        Some(name) => {
+            let text = format!(
+                " is {}; where spacings vary it must be in spacings",
+                settings.get(name).map_or(String::new(), ToString::to_string)
+            );
+            Err(Message::default().name(name).text(text).into())
+        }
+        None => Ok(told),
+    }
+}
+
+fn without_lengths(settings: &Settings) -> Settings {
+    let values = settings.names().filter_map(|name| Some((name, settings.get(name)?)));
+    let others = values.filter(|(_, value)| !matches!(value, Setting::Length(_)));
+    others.fold(Settings::default(), |all, (name, value)| all.with(name, value.clone()))
+}
+
+/// The same for the vertices of a mesh.
+///
+/// # Errors
+/// As [`on_meshes`].
+pub(crate) fn check_on_meshes(method: Method, settings: &Settings) -> Result<(), Error> {
+    Job::Mesh.require_taken(settings, &[method])?;
+    method.in_spacings(settings, 1.0)?;
+    method.on_meshes(&without_lengths(settings), 0)?;
+    Ok(())
 }
 
 /// The method with what it is told; `None` for one that makes points.
@@ -134,6 +177,14 @@ pub fn default_of(about: &About, default: Option<&Setting>) -> Option<String> {
     if about.default.is_empty() { default.map(ToString::to_string) } else { Some(about.default.into()) }
 }
 
+fn unit_of(unit: Unit) -> Option<&'static str> {
+    match unit {
+        Unit::None => None,
+        Unit::Spacings => Some("spacings"),
+        Unit::Input => Some("input"),
+    }
+}
+
 /// All methods and what they can be told, as JSON.
 pub fn registry() -> Value {
     let parameter = |(about, default): (About, Option<Setting>)| {
@@ -144,7 +195,7 @@ pub fn registry() -> Value {
             ParameterKind::Flag => ("flag", None),
             ParameterKind::Choice(choices) => ("choice", Some(choices.iter().map(|choice| choice.name).collect::<Vec<_>>())),
         };
-        json!({ "name": about.name, "kind": kind, "choices": choices, "default": default_of(&about, default.as_ref()), "doc": about.doc })
+        json!({ "name": about.name, "kind": kind, "unit": unit_of(about.unit), "choices": choices, "default": default_of(&about, default.as_ref()), "doc": about.doc })
     };
     let method = |method: Method| {
         let parameters: Vec<Value> = method.parameters().into_iter().map(parameter).collect();

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use evenly::{
-    Density, Measures, Method, Optimizer, Outcome, PointSet, Report, Settings, Space, UnmetTarget, angle_bounds_deg, measure,
-    warp_isotropic,
+    Density, Group, Measures, Method, Optimizer, Outcome, PointSet, Report, Settings, Space, UnmetTarget, angle_bounds_deg,
+    hexagonal_spacing, measure, warp_isotropic,
 };
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ use crate::context::{Context, Stage};
 use crate::error::Error;
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, optimizer, require_beginning, require_density, require_density_of_start};
+use crate::method::{Job, in_spacings, optimizer, require_beginning, require_density, require_density_of_start};
 use crate::resource::{Pixels, Positions, Resource, Resources, called};
 use crate::space::{Domain, Metric};
 
@@ -112,6 +112,8 @@ pub struct PointsOutcome {
     pub report: Option<Report>,
     /// What the user should know.
     pub notes: Vec<Message>,
+    /// Whether the targets are a wish, not only what the default method aims at.
+    is_asked: bool,
     is_cancelled: bool,
 }
 
@@ -122,6 +124,17 @@ pub struct PointsMeasured {
     pub measures: Option<Measures>,
     /// The targets that were not reached; absent for a method that has none.
     pub unmet: Option<Vec<UnmetTarget>>,
+    /// The measured lengths in units; absent where the density varies them.
+    pub lengths: Option<PointsLengths>,
+}
+
+/// Lengths in the units in which distances count: those of the input, or of the unit square.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PointsLengths {
+    /// The smallest distance of two points.
+    pub min_distance: f64,
+    /// The largest distance of a place to the nearest point.
+    pub coverage_radius: f64,
 }
 
 /// How a job ended.
@@ -144,13 +157,13 @@ impl GenerateRequest {
     /// Parameters that the method does not have, or outside their range; parts that do not go together; points that do not fit into memory.
     pub fn check(&self) -> Result<(), Error> {
         require_beginning(self.method, self.start, !self.no_warp)?;
-        let optimizer = optimizer(Job::Generate, self.method, &self.parameters, self.seed)?;
+        Job::Generate.check(self.method, &self.parameters)?;
         if self.density.is_some() {
             require_density(self.method)?;
         }
         match self.n_points {
             Some(n_points) => memory::require_points(n_points, self.method),
-            None if optimizer.is_some() => Err(missing_number().into()),
+            None if self.method.is_optimizer() => Err(missing_number().into()),
             None => Ok(()),
         }
     }
@@ -162,19 +175,22 @@ impl GenerateRequest {
     pub fn run(&self, resources: &mut dyn Resources, context: &mut Context) -> Result<PointsOutcome, Error> {
         self.check()?;
         let Self { n_points, method, parameters, seed, metric, .. } = self;
-        let optimizer = optimizer(Job::Generate, *method, parameters, *seed)?;
         let (space, repairs) = self.space.space(resources)?;
         let mut notes = Vec::new();
         repairs.into_iter().for_each(|repair| context.note(&mut notes, repair));
         let begin = self.start.unwrap_or(method.default_start(&space, self.density.is_some()));
-        if self.density.is_some() && optimizer.is_some() {
+        if self.density.is_some() && method.is_optimizer() {
             require_density_of_start(begin)?;
         }
         context.enter(Stage::Read);
         let density = density_of(self.density.as_ref(), resources)?;
         let given = fixed_of(self.fixed.as_ref(), &space, resources)?.with_density(&density);
         let (fixed, given) = measured_in(*metric, given)?;
-        let made = PointsOutcome { points: fixed, given, method: *method, optimizer, report: None, notes, is_cancelled: false };
+        let spacing = n_points.map_or(f64::NAN, |n| hexagonal_spacing(fixed.space().area(), n as f64));
+        let parameters = &in_spacings(*method, parameters, density.is_uniform().then_some(spacing))?;
+        let optimizer = optimizer(Job::Generate, *method, parameters, *seed)?;
+        let is_asked = is_asked(*method, parameters);
+        let made = PointsOutcome { points: fixed, given, method: *method, optimizer, report: None, notes, is_asked, is_cancelled: false };
         context.enter(Stage::Start);
         match &made.optimizer {
             Some(_) => {
@@ -218,7 +234,7 @@ impl OptimizeRequest {
         if self.density.is_some() {
             require_density(self.method)?;
         }
-        optimizer(Job::Optimize, self.method, &self.parameters, self.seed).map(drop)
+        Job::Optimize.check(self.method, &self.parameters)
     }
 
     /// Improves the points.
@@ -238,9 +254,12 @@ impl OptimizeRequest {
         memory::require_points(points.n_points(), self.method)?;
         let density = density_of(self.density.as_ref(), resources)?;
         let (points, given) = measured_in(self.metric, points.with_density(&density))?;
-        let optimizer = optimizer(Job::Optimize, self.method, &self.parameters, self.seed)?;
+        let parameters = in_spacings(self.method, &self.parameters, density.is_uniform().then(|| points.hex_spacing()))?;
+        let optimizer = optimizer(Job::Optimize, self.method, &parameters, self.seed)?;
         let begin = PointSet::new(points.space(), Vec::new())?;
-        let made = PointsOutcome { points: begin, given, method: self.method, optimizer, report: None, notes, is_cancelled: false };
+        let is_asked = is_asked(self.method, &self.parameters);
+        let made =
+            PointsOutcome { points: begin, given, method: self.method, optimizer, report: None, notes, is_asked, is_cancelled: false };
         made.improved(points, !self.no_warp, context)
     }
 }
@@ -248,9 +267,9 @@ impl OptimizeRequest {
 impl PointsOutcome {
     /// Lets the optimiser improve points, evened out first if it is wanted and suits it. What came in is kept where it was nearer to the targets.
     fn improved(self, mut points: PointSet, is_warped: bool, context: &mut Context) -> Result<Self, Error> {
-        let Self { given, method, optimizer, mut notes, .. } = self;
+        let Self { given, method, optimizer, mut notes, is_asked, .. } = self;
         let Some(method_told) = optimizer.as_deref() else {
-            return Ok(Self { points, given, method, optimizer, report: None, notes, is_cancelled: false });
+            return Ok(Self { points, given, method, optimizer, report: None, notes, is_asked, is_cancelled: false });
         };
         let warp = warp_for(&points, method_told, is_warped);
         let start = (warp.is_some() && method_told.targets().is_some()).then(|| points.clone());
@@ -276,7 +295,7 @@ impl PointsOutcome {
                 points = start;
             }
         }
-        Ok(Self { points, given, method, optimizer, report: Some(report), notes, is_cancelled })
+        Ok(Self { points, given, method, optimizer, report: Some(report), notes, is_asked, is_cancelled })
     }
 
     /// The points in the units that they were given in.
@@ -310,7 +329,12 @@ impl PointsOutcome {
         let measures = measure(&self.points).ok();
         let targets = self.optimizer.as_ref().and_then(|optimizer| optimizer.targets());
         let unmet = targets.zip(measures.as_ref()).map(|(targets, measures)| targets.unmet(measures));
-        PointsMeasured { measures, unmet }
+        let is_uniform = self.points.density().is_uniform();
+        let lengths = measures.as_ref().filter(|_| is_uniform).map(|measures| PointsLengths {
+            min_distance: measures.min_distance * measures.hex_spacing,
+            coverage_radius: measures.coverage_radius * measures.hex_spacing,
+        });
+        PointsMeasured { measures, unmet, lengths }
     }
 
     /// How the job ended; without measures, as the report says.
@@ -319,6 +343,7 @@ impl PointsOutcome {
         match self.report.as_ref().map(|report| report.outcome) {
             _ if self.is_cancelled => Ending::Cancelled,
             Some(Outcome::Forced) => Ending::Done,
+            _ if self.has_targets() && !self.is_asked => Ending::Done,
             _ if unmet.is_some_and(|unmet| !unmet.is_empty()) => Ending::Missed,
             Some(Outcome::IterationLimit | Outcome::LostToRounding) if unmet.is_none() => Ending::Missed,
             _ => Ending::Done,
@@ -337,6 +362,12 @@ impl PointsMeasured {
         let measures = self.measures.as_ref()?;
         angle_bounds_deg(measures.beta).filter(|_| !measures.angle_rms_deg.is_nan())
     }
+}
+
+/// Whether targets are asked for: one by one, or by a method that has them and is not the default.
+fn is_asked(method: Method, parameters: &Settings) -> bool {
+    let is_target = |name: &str| method.parameters().iter().any(|(about, _)| about.name == name && about.group == Group::Targets);
+    method != Method::default() || parameters.names().any(is_target)
 }
 
 /// What evens out these points first, if anything.

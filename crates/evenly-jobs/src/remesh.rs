@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use evenly::{
     CertificateBreach, LocalMethod, Method, MissedLengths, OBTUSE_DEG, Outcome, RemeshParams, Remeshed, Report, Settings, Surface,
     SurfaceDistance, SurfaceQuality, TriangleMesh, certificate, expected_vertices, missed_lengths, remesh, self_intersections,
-    surface_distance, surface_quality, surface_sizes,
+    surface_distance, surface_quality, surface_sizes, triangle_side,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -14,7 +14,7 @@ use crate::context::{Context, Event, Stage};
 use crate::error::Error;
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, on_meshes, push_pull};
+use crate::method::{Job, check_on_meshes, in_spacings, on_meshes};
 use crate::points::Ending;
 use crate::resource::{Places, Resource, Resources, Triangles};
 use crate::surface::{OrOff, Prepared, Repair, Sizing, number_of, place_attributes};
@@ -39,7 +39,7 @@ pub struct RemeshRequest {
     #[serde(default)]
     pub seed: u64,
     /// How vertices find their places.
-    #[serde(default = "push_pull")]
+    #[serde(default)]
     #[cfg_attr(test, schemars(with = "crate::schema::MethodName"))]
     pub method: Method,
     /// What the method is told.
@@ -125,7 +125,7 @@ impl RemeshRequest {
             edge_length: None,
             points: None,
             seed: 0,
-            method: push_pull(),
+            method: Method::default(),
             parameters: Settings::default(),
             density: None,
             features: usual_features(),
@@ -152,7 +152,7 @@ impl RemeshRequest {
             let needs = Message::default().name("max_deviation").text(format!(" needs vertices that move; those of {} stay", self.method));
             return Err(needs.into());
         }
-        on_meshes(self.method, &self.parameters, self.seed).map(drop)
+        check_on_meshes(self.method, &self.parameters)
     }
 
     /// Makes the mesh.
@@ -182,7 +182,10 @@ impl RemeshRequest {
         let missing = evenly::Error::Missing { names: &["n_vertices", "edge_length"], question: "how many vertices?" };
         let n_vertices = n_vertices.ok_or(missing)?;
         memory::require_vertices(n_vertices)?;
-        let method = on_meshes(self.method, &self.parameters, self.seed)?;
+        // Two triangles a vertex, about.
+        let side = triangle_side(surface.area(), 2.0 * n_vertices as f64);
+        let parameters = in_spacings(self.method, &self.parameters, sizes.is_empty().then_some(side))?;
+        let method = on_meshes(self.method, &parameters, self.seed)?;
         let default = if sizes.is_empty() { RemeshParams::default().max_deviation } else { Some(SIZED_DEVIATION) };
         let params = RemeshParams {
             n_vertices,

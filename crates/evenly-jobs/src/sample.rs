@@ -1,13 +1,15 @@
 //! [`SampleRequest`]: points on a surface.
 
-use evenly::{Method, Outcome, Report, SampleParams, Settings, SurfacePoint, SurfaceSampling, sample_surface, surface_sizes};
+use evenly::{
+    Method, Outcome, Report, SampleParams, Settings, SurfacePoint, SurfaceSampling, sample_surface, surface_sizes, triangle_side,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::context::{Context, Event, Stage};
 use crate::error::Error;
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, POISSON_DISK, WHITE, on_meshes, push_pull};
+use crate::method::{Job, POISSON_DISK, WHITE, check_on_meshes, in_spacings, on_meshes};
 use crate::points::Ending;
 use crate::resource::{Resource, Resources, Triangles};
 use crate::surface::{Prepared, Repair, Sizing, number_of};
@@ -26,7 +28,7 @@ pub struct SampleRequest {
     #[serde(default)]
     pub spacing: Option<f64>,
     /// How they are spread.
-    #[serde(default = "push_pull")]
+    #[serde(default)]
     #[cfg_attr(test, schemars(with = "crate::schema::MethodName"))]
     pub method: Method,
     /// What the method is told.
@@ -70,7 +72,7 @@ impl SampleRequest {
             mesh,
             n_points: None,
             spacing: None,
-            method: push_pull(),
+            method: Method::default(),
             parameters: Settings::default(),
             density: None,
             seed: 0,
@@ -89,7 +91,7 @@ impl SampleRequest {
             return Err(Message::from("give either ").name("n_points").text(" or ").name("spacing").into());
         }
         if self.method.is_local() {
-            on_meshes(self.method, &self.parameters, self.seed).map(drop)
+            check_on_meshes(self.method, &self.parameters)
         } else {
             Job::Sample.require_taken(&self.parameters, &[])
         }
@@ -110,11 +112,13 @@ impl SampleRequest {
         let sizing = self.density.as_ref().map(|density| density.get(resources)).transpose()?;
         let n_points = number_of(&surface, self.n_points, "spacing", self.spacing)?.unwrap_or_default();
         memory::require_vertices(n_points)?;
+        let side = triangle_side(surface.area(), 2.0 * n_points as f64);
+        let parameters = in_spacings(self.method, &self.parameters, sizing.is_none().then_some(side))?;
         let sampling = match (self.method.name(), self.spacing) {
             (WHITE, _) => SurfaceSampling::White(n_points),
             (POISSON_DISK, Some(spacing)) => SurfaceSampling::PoissonDisk(spacing),
             (POISSON_DISK, None) => SurfaceSampling::poisson_disk_of(&surface, n_points),
-            _ => SurfaceSampling::Vertices(n_points, on_meshes(self.method, &self.parameters, self.seed)?),
+            _ => SurfaceSampling::Vertices(n_points, on_meshes(self.method, &parameters, self.seed)?),
         };
         let sizes = sizing.map_or(Ok(Vec::new()), |sizing| surface_sizes(&surface, &sizing, Some(n_points))).map_err(named)?;
         let params = SampleParams { sampling, sizes, seed: self.seed };

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use evenly::{Method, ParameterKind};
+use evenly::{Method, ParameterKind, Unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
@@ -36,9 +36,15 @@ impl JsonSchema for Parameters {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let mut all = Map::new();
         for (about, _) in Method::all().flat_map(|method| method.parameters()) {
+            let mut numbers = vec![json!({ "type": "number" })];
+            if about.unit != Unit::None {
+                numbers.push(json!({ "type": "string", "pattern": "^[-+0-9.eE]+u$", "description": "a length in input units" }));
+            }
+            if about.kind == ParameterKind::Target {
+                numbers.extend([json!({ "const": "off" }), json!({ "type": "null" })]);
+            }
             let value = match about.kind {
-                ParameterKind::Number => json!({ "type": "number" }),
-                ParameterKind::Target => json!({ "anyOf": [{ "type": "number" }, { "const": "off" }, { "type": "null" }] }),
+                ParameterKind::Number | ParameterKind::Target => json!({ "anyOf": numbers }),
                 ParameterKind::Count => json!({ "type": "integer", "minimum": 1 }),
                 ParameterKind::Flag => json!({ "type": "boolean" }),
                 ParameterKind::Choice(choices) => json!({ "enum": choices.iter().map(|choice| choice.name).collect::<Vec<_>>() }),
@@ -77,9 +83,9 @@ fn the_schema_in_the_docs_is_that_of_the_types() {
 /// One request of each kind, with nothing left at its default.
 fn requests() -> Vec<Request> {
     let told = |text: &str| serde_json::from_str(text).unwrap();
-    let parameters = told(r#"{"min_distance": 0.8, "coverage_radius": "off", "iterations": 7}"#);
+    let parameters = told(r#"{"min_distance": "8u", "coverage_radius": "off", "iterations": 7}"#);
     let polygon = Domain::Polygon { polygon: Resource::Data(crate::Rings(vec![vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])) };
-    let method = crate::push_pull();
+    let method = Method::default();
     let fixed = Some(Resource::Name("fixed.csv".into()));
     let density = Some(Resource::Data(crate::Pixels { width: 2, height: 1, values: vec![0.25, 1.0] }));
     let start = Method::named("jittered");

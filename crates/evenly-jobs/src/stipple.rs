@@ -16,7 +16,7 @@ pub use self::tone::{ToneReport, Wanted};
 use crate::context::{Context, Stage};
 use crate::error::Error;
 use crate::memory;
-use crate::method::{Job, push_pull};
+use crate::method::Job;
 use crate::points::Ending;
 use crate::resource::{Colours, Resource, Resources};
 
@@ -30,7 +30,7 @@ pub struct StippleRequest {
     /// How many dots, exactly, of all layers together.
     pub n_points: usize,
     /// How they are spread.
-    #[serde(default = "push_pull")]
+    #[serde(default)]
     #[cfg_attr(test, schemars(with = "crate::schema::MethodName"))]
     pub method: Method,
     /// What the method is told; passes are 60 where it would go on until targets are met.
@@ -169,7 +169,7 @@ impl StippleRequest {
         Self {
             picture,
             n_points,
-            method: push_pull(),
+            method: Method::default(),
             parameters: Settings::default(),
             seed: 0,
             tone: InkTone::default(),

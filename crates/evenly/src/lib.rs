@@ -56,7 +56,7 @@ pub use methods::{
     ProcrustesParams, PushPullParams, PushPullPreset, Targets, UnmetTarget, WellSpacedParams, angle_bounds_deg, capacity, cvt, distmesh,
     farthest_point, lloyd, opt_beta, procrustes, push_pull, well_spaced,
 };
-pub use parameter::{About, Choice, Group, ParameterKind, Setting, Settings};
+pub use parameter::{About, Choice, Group, ParameterKind, Setting, Settings, Unit};
 pub use points::{
     CANDIDATES_A_POINT, DartParams, MAX_POINTS, PointSet, PoissonDiskParams, dart, eliminate, hexagonal, jittered, poisson_disk,
     poisson_disk_around, poisson_disk_by_density, poisson_disk_of, poisson_disk_of_density, progressive, warp, warp_isotropic, white,

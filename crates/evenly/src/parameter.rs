@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::str::FromStr;
 
 use serde::de::{self, Deserializer, Visitor};
 use serde::ser::Serializer;
@@ -17,6 +18,8 @@ pub enum Setting {
     Number(f64),
     /// A count.
     Count(usize),
+    /// A length in input units, for a parameter that counts spacings otherwise: `8u`.
+    Length(f64),
     /// One of the parameter's choices, by its name.
     Choice(String),
     /// On, for a parameter that is off otherwise.
@@ -31,6 +34,7 @@ impl Serialize for Setting {
         match self {
             Self::Number(number) => serializer.serialize_f64(*number),
             Self::Count(count) => serializer.serialize_u64(*count as u64),
+            Self::Length(_) => serializer.collect_str(self),
             Self::Choice(name) => serializer.serialize_str(name),
             Self::On => serializer.serialize_bool(true),
             Self::Off => serializer.serialize_none(),
@@ -38,7 +42,24 @@ impl Serialize for Setting {
     }
 }
 
-/// As a plain value; `null`, `false` and `"off"` are off.
+/// A number, or a length in input units, as `8u`.
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let digits = text.trim_end_matches(|c: char| c.is_alphabetic());
+        match (text.parse(), text.strip_suffix('u').and_then(|number| number.parse().ok()), digits.parse::<f64>()) {
+            (Ok(number), ..) => Ok(Self::Number(number)),
+            (_, Some(length), _) => Ok(Self::Length(length)),
+            (.., Ok(number)) if digits.len() < text.len() => {
+                Err(format!("inputs have no units; {digits}u is {number} in the input's own, a number alone counts spacings"))
+            }
+            _ => Err("it must be a number".into()),
+        }
+    }
+}
+
+/// As a plain value; `null`, `false` and `"off"` are off, and `"8u"` is a length in input units.
 impl<'de> Deserialize<'de> for Setting {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Plain;
@@ -63,7 +84,11 @@ impl<'de> Deserialize<'de> for Setting {
             }
 
             fn visit_str<E: de::Error>(self, name: &str) -> Result<Setting, E> {
-                Ok(if name == "off" { Setting::Off } else { Setting::Choice(name.to_owned()) })
+                Ok(match name.parse() {
+                    Ok(length @ Setting::Length(_)) => length,
+                    _ if name == "off" => Setting::Off,
+                    _ => Setting::Choice(name.to_owned()),
+                })
             }
 
             fn visit_bool<E: de::Error>(self, is_on: bool) -> Result<Setting, E> {
@@ -84,6 +109,7 @@ impl fmt::Display for Setting {
         match self {
             Self::Number(number) => write!(f, "{number}"),
             Self::Count(count) => write!(f, "{count}"),
+            Self::Length(length) => write!(f, "{length}u"),
             Self::Choice(name) => f.write_str(name),
             Self::On => f.write_str("on"),
             Self::Off => f.write_str("off"),
@@ -155,6 +181,17 @@ pub struct Choice {
     pub doc: &'static str,
 }
 
+/// What a parameter counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Nothing that has a length.
+    None,
+    /// Spacings: of the hexagonal lattice with as many points, or on meshes of the wanted edge length. A [`Setting::Length`] is one in input units.
+    Spacings,
+    /// Input units.
+    Input,
+}
+
 /// What a parameter is for; help shows those of one group together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Group {
@@ -175,6 +212,8 @@ pub struct About {
     pub kind: ParameterKind,
     /// What stands for the value in help.
     pub symbol: &'static str,
+    /// What it counts.
+    pub unit: Unit,
     /// What it is for.
     pub group: Group,
     /// Whether short help leaves it out.
@@ -211,7 +250,7 @@ pub(crate) struct Parameter<P: 'static> {
 
 impl<P: Clone> Parameter<P> {
     const fn new(name: &'static str, symbol: &'static str, kind: ParameterKind, field: Field<P>, doc: &'static str) -> Self {
-        let about = About { name, kind, symbol, group: Group::Steps, is_rare: false, doc, details: "", default: "" };
+        let about = About { name, kind, symbol, unit: Unit::None, group: Group::Steps, is_rare: false, doc, details: "", default: "" };
         Self { about, field }
     }
 
@@ -260,6 +299,11 @@ impl<P: Clone> Parameter<P> {
         self
     }
 
+    pub const fn counting(mut self, unit: Unit) -> Self {
+        self.about.unit = unit;
+        self
+    }
+
     pub const fn rare(mut self) -> Self {
         self.about.is_rare = true;
         self
@@ -291,13 +335,10 @@ impl<P: Clone> Parameter<P> {
         }
     }
 
-    /// Sets it; a count is a number too.
-    ///
     /// # Errors
     /// [`Error::InvalidParameter`] for a value of another kind.
     pub fn set(&self, params: &mut P, value: &Setting) -> Result<(), Error> {
         match (&self.field, value) {
-            (_, &Setting::Count(count)) if self.is_number() => return self.set(params, &Setting::Number(count as f64)),
             (Field::Number(field), Setting::Number(number)) => *field(params) = *number,
             (Field::OwnNumber(field) | Field::Target(field), Setting::Number(number)) => *field(params) = Some(*number),
             (Field::Target(field), Setting::Off) => *field(params) = None,
@@ -309,10 +350,6 @@ impl<P: Clone> Parameter<P> {
             _ => return Err(self.invalid(value)),
         }
         Ok(())
-    }
-
-    fn is_number(&self) -> bool {
-        matches!(self.about.kind, ParameterKind::Number | ParameterKind::Target)
     }
 
     fn choices(&self) -> &'static [Choice] {
@@ -360,6 +397,12 @@ impl<P: Clone> Entry<P> {
         if let Some(name) = settings.names().find(|name| !is_known(name)) {
             return Err(Error::UnknownParameter { name: name.to_owned(), method: self.name });
         }
+        // A whole number is a number too.
+        let is_number = |parameter: &&Parameter<P>| matches!(parameter.about.kind, ParameterKind::Number | ParameterKind::Target);
+        let settings = &self.parameters.iter().filter(is_number).fold(settings.clone(), |all, parameter| {
+            let name = parameter.about.name;
+            if let Some(&Setting::Count(count)) = all.get(name) { all.with(name, Setting::Number(count as f64)) } else { all }
+        });
         let mut params = (self.begin)(settings);
         for parameter in self.parameters {
             if let Some(value) = settings.get(parameter.about.name) {

@@ -14,6 +14,8 @@ const PASSES: usize = 60;
 /// # Errors
 /// As [`method::optimizer`].
 pub fn optimizer(method: Method, settings: &Settings, seed: u64) -> Result<Option<Box<dyn Optimizer>>, Error> {
+    // Dots follow a density: nowhere are spacings alike.
+    let settings = &method::in_spacings(method, settings, None)?;
     let is_endless = method.parameters().iter().any(|(about, default)| about.name == "iterations" && default.is_none());
     let is_limited = !is_endless || settings.get("iterations").is_some();
     let settings = if is_limited { settings.clone() } else { settings.clone().with("iterations", Setting::Count(PASSES)) };

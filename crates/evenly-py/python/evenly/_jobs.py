@@ -165,6 +165,8 @@ def value_of(name: str, value: object, kind: Kind) -> object:
         return value
     if kind == "target" and value == "off":
         return "off"
+    if kind in ("number", "target") and isinstance(value, str) and value.endswith("u"):
+        return value
     if kind == "count" and not _is_whole(value):
         raise TypeError(f"{name} must be a whole number, not {value!r}")
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):

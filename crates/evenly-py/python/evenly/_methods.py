@@ -19,8 +19,8 @@ OnMeshes: TypeAlias = Literal["push-pull", "well-spaced", "opt-beta", "lloyd", "
 """Methods that move the vertices of meshes; those of 'eliminate' stay where they begin."""
 OnSurfaces: TypeAlias = OnMeshes | Literal["poisson-disk", "white"]
 """Methods that spread points over surfaces."""
-Target: TypeAlias = "float | Literal['off'] | None"
-"""A number, 'off', or None for what the method has."""
+Target: TypeAlias = "float | str | None"
+"""A number, 'off', a length in input units as '8u', or None for what the method has."""
 
 
 class OptimizerOptions(TypedDict, total=False):
@@ -60,6 +60,8 @@ class Parameter:
     """Its name, here and on the command line."""
     kind: Kind
     """'number', 'target' (a number or 'off'), 'count', 'flag' or 'choice'."""
+    unit: Literal["spacings", "input"] | None
+    """What a length counts: spacings, of which ``"8u"`` is one in input units; or input units."""
     choices: tuple[str, ...]
     """Of a choice, its values."""
     default: str | None

@@ -89,7 +89,7 @@ class Points(Frozen):
 def generate(
     n: int | None = None,
     *,
-    method: Optimizer | Start = "procrustes",
+    method: Optimizer | Start = "push-pull",
     start: Start | None = None,
     seed: Seed = 0,
     space: object = None,
@@ -110,7 +110,7 @@ def generate(
     n : int, optional
         How many points, exactly; of 'poisson-disk' about. May only be missing with `spacing`.
     method : str
-        How they are made, by an optimiser or as one of its starts: 'procrustes' (Papazov and Hege 2017), 'push-pull' (Ahmed et al. 2016),
+        How they are made, by an optimiser or as one of its starts: 'push-pull' (Ahmed et al. 2016), 'procrustes' (Papazov and Hege 2017),
         'well-spaced' and 'opt-beta' (Ebeida et al. 2014), 'lloyd', 'cvt' (Liu et al. 2009), 'farthest-point' (Schlömer et al. 2011), 'distmesh'
         (Persson and Strang 2004), 'capacity' (Balzer et al. 2009), 'warp', which takes long density waves out and nothing else; 'poisson-disk', 'dart', 'eliminate' (Yuksel 2015), 'white', 'jittered', 'hexagonal'.
     start : str, optional
@@ -186,7 +186,7 @@ def generate(
 def optimize(
     points: "ArrayLike | object",
     *,
-    method: Optimizer = "procrustes",
+    method: Optimizer = "push-pull",
     seed: Seed = 0,
     space: object = None,
     size: Pair | None = None,

@@ -15,7 +15,7 @@ use super::optimizer::{ITERATIONS, Optimizing};
 use super::prepare::validate_iterations;
 use super::relax::relax;
 use crate::error::Error;
-use crate::parameter::{Entry, Parameter};
+use crate::parameter::{Entry, Parameter, Unit};
 use crate::points::PointSet;
 use crate::run::{Report, RunContext};
 use crate::star::{Rule, Senses, Star};
@@ -81,6 +81,7 @@ impl Optimizing for DistMeshParams {
                 |p: &mut Self| &mut p.pressure,
                 "The wanted length of edges in hexagonal spacings, up to 2: more than 1 keeps them under pressure (the paper's Fscale)",
             )
+            .counting(Unit::Spacings)
             .rare(),
             Parameter::number(
                 "step",
@@ -95,6 +96,7 @@ impl Optimizing for DistMeshParams {
                 |p: &mut Self| &mut p.tolerance,
                 "Stop when no point goes farther than this many hexagonal spacings",
             )
+            .counting(Unit::Spacings)
             .rare(),
         ],
     };

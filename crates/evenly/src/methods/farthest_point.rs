@@ -21,7 +21,7 @@ use super::prepare::{keep_distinct, require_uniform, triangulated, validate_iter
 use super::targets::{ROUNDING, Targets, UnmetTarget, is_lost_to_rounding, under};
 use crate::error::Error;
 use crate::measure::{Measures, PointMeasures};
-use crate::parameter::{Entry, Parameter};
+use crate::parameter::{Entry, Parameter, Unit};
 use crate::points::PointSet;
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 
@@ -94,7 +94,7 @@ impl Optimizing for FarthestPointParams {
         seed: None,
         parameters: &[
             Parameter::count("iterations", "I", |p: &mut Self| &mut p.iterations, ITERATIONS),
-            Parameter::target("min_distance", "R", |p: &mut Self| &mut p.min_distance, MIN_DISTANCE),
+            Parameter::target("min_distance", "R", |p: &mut Self| &mut p.min_distance, MIN_DISTANCE).counting(Unit::Spacings),
             Parameter::number(
                 "relaxation",
                 "W",

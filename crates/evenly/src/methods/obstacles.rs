@@ -35,6 +35,8 @@ const ALL: [(Obstacle, &str); 5] = [
     (Obstacle::Others, " elsewhere"),
 ];
 
+/// The method that has no other target than the smallest distance.
+const FARTHEST_POINT: &str = "farthest-point";
 /// A side of a cell this much thinner than the cell itself lies in a gap.
 const THIN: f64 = 0.01;
 
@@ -43,12 +45,12 @@ pub(super) fn conclude(points: &PointSet, targets: &dyn Targets, report: &mut Re
     report.note_limit();
     if matches!(report.outcome, Outcome::Forced | Outcome::IterationLimit) {
         // Points that cannot be measured have no places to tell of.
-        report.notes.extend(obstacle_notes(points, targets).unwrap_or_default());
+        report.notes.extend(obstacle_notes(points, targets, report.method).unwrap_or_default());
     }
 }
 
 /// How many points miss their targets, what is in their way and where the worst of each kind is.
-fn obstacle_notes(points: &PointSet, targets: &dyn Targets) -> Result<Vec<String>, Error> {
+fn obstacle_notes(points: &PointSet, targets: &dyn Targets, method: &str) -> Result<Vec<String>, Error> {
     let mut notes: Vec<String> = islands(points.space(), points.n_points()).into_iter().collect();
     let each = measure_each(points)?;
     let misses: Vec<f64> = each.iter().map(|point| targets.miss(point)).collect();
@@ -65,6 +67,9 @@ fn obstacle_notes(points: &PointSet, targets: &dyn Targets) -> Result<Vec<String
         notes.push(format!(
             "{which} a target; the worst is point {worst} at ({x}, {y}): nearest {nearest:.3}, reach {reach:.3}, capacity {capacity:.3}"
         ));
+        if kind == Obstacle::FixedPoint && points.density().is_uniform() && method != FARTHEST_POINT {
+            notes.push(format!("the method {FARTHEST_POINT} makes the smallest distance as large as the fixed points allow"));
+        }
     }
     Ok(notes)
 }

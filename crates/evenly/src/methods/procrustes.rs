@@ -32,7 +32,7 @@ use super::optimizer::{ITERATIONS, Optimizing};
 use super::prepare::{Prepared, keep_distinct, prepare};
 use crate::density::{Field, SoftField};
 use crate::error::Error;
-use crate::parameter::{Choice, Entry, Parameter};
+use crate::parameter::{Choice, Entry, Parameter, Unit};
 use crate::points::{PointSet, warp};
 use crate::run::{Outcome, Phase, Progress, Report, RunContext};
 use crate::triangulation::delaunay;
@@ -131,6 +131,7 @@ impl Optimizing for ProcrustesParams {
                 |p: &mut Self| &mut p.side,
                 "Side of the model triangle in hexagonal spacings, good within 1 to 1.625",
             )
+            .counting(Unit::Spacings)
             .rare(),
             Parameter::number(
                 "tolerance",

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::density::Density;
 use crate::error::Error;
-use crate::parameter::{About, AnyEntry, Setting, Settings};
+use crate::parameter::{About, AnyEntry, Setting, Settings, Unit};
 use crate::points::{AnyStart, Dart, Eliminate, Hexagonal, Jittered, PointSet, PoissonDisk, Starting, Told, White, around};
 use crate::space::Space;
 
@@ -57,10 +57,10 @@ impl PartialEq for Method {
 
 impl Eq for Method {}
 
-/// The method where none is asked for.
+/// The method where none is asked for: Push-Pull.
 impl Default for Method {
     fn default() -> Self {
-        Self(Kind::Optimizer(ProcrustesParams::ENTRY))
+        Self(Kind::Optimizer(PushPullParams::ENTRY))
     }
 }
 
@@ -147,6 +147,23 @@ impl Method {
         let names: Vec<&str> = settings.names().filter(|name| self.takes(name)).collect();
         let taken = names.into_iter().filter_map(|name| Some((name, settings.get(name)?)));
         taken.fold(Settings::default(), |taken, (name, value)| taken.with(name, value.clone()))
+    }
+
+    /// The same settings with lengths in input units as what the parameters count, where a spacing is so long.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] for a length where none is counted.
+    pub fn in_spacings(&self, settings: &Settings, spacing: f64) -> Result<Settings, Error> {
+        let unit =
+            |name: &str| self.parameters().into_iter().find(|(about, _)| about.name == name).map(|(about, _)| (about.name, about.unit));
+        settings.names().try_fold(settings.clone(), |all, name| match (settings.get(name), unit(name)) {
+            (Some(Setting::Length(length)), Some((_, Unit::Spacings))) => Ok(all.with(name, Setting::Number(length / spacing))),
+            (Some(Setting::Length(length)), Some((_, Unit::Input))) => Ok(all.with(name, Setting::Number(*length))),
+            (Some(value @ Setting::Length(_)), Some((name, Unit::None))) => {
+                Err(Error::InvalidParameter { name, value: value.to_string(), expected: "a number alone: it counts no lengths" })
+            }
+            _ => Ok(all),
+        })
     }
 
     /// Whether its points follow a density.

@@ -14,7 +14,7 @@ use super::start::{Starting, Told};
 use super::uniform::Uniform;
 use crate::density::Density;
 use crate::error::Error;
-use crate::parameter::{Entry, Group, Parameter};
+use crate::parameter::{Entry, Group, Parameter, Unit};
 use crate::space::{Domain, Space};
 
 /// What [`dart`] can be told.
@@ -140,7 +140,7 @@ impl Starting for Dart {
         begin: |_| Self(DartParams::default()),
         seed: Some(|p| &mut p.0.seed),
         parameters: &[
-            Parameter::own_number("spacing", "R", |p: &mut Self| &mut p.0.spacing, SPACING).of(Group::Starts),
+            Parameter::own_number("spacing", "R", |p: &mut Self| &mut p.0.spacing, SPACING).of(Group::Starts).counting(Unit::Input),
             Parameter::count(
                 "tries",
                 "K",

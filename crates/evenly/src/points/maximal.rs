@@ -6,7 +6,7 @@ use super::start::{Starting, Told};
 use super::varying_disk::{poisson_disk_by_density, poisson_disk_of_density};
 use crate::density::Density;
 use crate::error::Error;
-use crate::parameter::{Entry, Group, Parameter};
+use crate::parameter::{Entry, Group, Parameter, Unit};
 use crate::space::Space;
 
 /// What it can be told.
@@ -29,7 +29,7 @@ impl Starting for PoissonDisk {
         begin: |_| Self::default(),
         seed: None,
         parameters: &[
-            Parameter::own_number("spacing", "R", |p: &mut Self| &mut p.spacing, SPACING).of(Group::Starts),
+            Parameter::own_number("spacing", "R", |p: &mut Self| &mut p.spacing, SPACING).of(Group::Starts).counting(Unit::Input),
             Parameter::own_number(
                 "coverage",
                 "R",

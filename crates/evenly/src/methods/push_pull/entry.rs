@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::methods::local::Local;
 use crate::methods::optimizer::{CAPACITY_TOLERANCE, ITERATIONS, MIN_DISTANCE, Optimizing, PASSES};
 use crate::methods::targets::Targets;
-use crate::parameter::{Choice, Entry, Parameter, Setting, Settings};
+use crate::parameter::{Choice, Entry, Parameter, Setting, Settings, Unit};
 use crate::points::{PointSet, warp_isotropic};
 use crate::run::{Report, RunContext};
 use crate::sweep::Schedule;
@@ -64,14 +64,17 @@ impl Optimizing for PushPullParams {
                 "Targets, with the tolerance and relaxation that they need; the flags below change them one by one",
             )
             .by_default("balanced, unless one of them is given"),
-            Parameter::target("min_distance", "R", |p: &mut Self| &mut p.min_distance, MIN_DISTANCE).by_default("the preset's"),
+            Parameter::target("min_distance", "R", |p: &mut Self| &mut p.min_distance, MIN_DISTANCE)
+                .by_default("the preset's")
+                .counting(Unit::Spacings),
             Parameter::target(
                 "coverage_radius",
                 "R",
                 |p: &mut Self| &mut p.coverage_radius,
                 "No place farther from a point than this many hexagonal spacings, 0.577 at least",
             )
-            .by_default("the preset's"),
+            .by_default("the preset's")
+            .counting(Unit::Spacings),
             Parameter::target("capacity_tolerance", "T", |p: &mut Self| &mut p.capacity_tolerance, CAPACITY_TOLERANCE)
                 .by_default("the preset's")
                 .details("Where a target is given without a preset, distances that are not given are off."),
