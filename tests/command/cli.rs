@@ -282,7 +282,8 @@ fn bad_input_gets_one_line_and_no_file() {
         ("optimize nan.csv -o o.txt", "nan.csv:3: NaN is not a finite number"),
         ("optimize wide.txt -o o.txt", "wide.txt:2: 3 numbers, expected 2"),
         ("optimize broken.npy -o o.txt", "broken.npy: this is no .npy file"),
-        ("optimize outside.txt --space rect -o o.txt", "outside.txt: point 2 is (1.9, 0.3), outside the domain 1 x 1 at (0, 0)"),
+        ("optimize outside.txt --space rect --size 1,1 -o o.txt", "outside.txt: point 2 is (1.9, 0.3), outside the domain 1 x 1 at (0, 0)"),
+        ("optimize outside.txt --space rect -o o.txt", "they span (0.1, 0.2) to (1.9, 0.7): give their --size"),
         ("analyze two.txt", "two.txt: 2 distinct points make no triangulation"),
         ("analyze missing.txt", "missing.txt: No such file"),
         ("mesh two.txt --spacing 1 -o o.msh", "it is called --edge-length now"),
@@ -396,9 +397,28 @@ fn text_that_pretends_to_be_numpy_is_still_read() {
 fn points_outside_the_torus_are_wrapped_and_told() {
     let shell = Shell::new();
     shell.write("out.txt", "0.1 0.2\n-0.5 0.7\n1.9 0.3\n0.4 0.4\n");
-    let output = shell.run("optimize out.txt -o o.txt");
+    let output = shell.run("optimize out.txt --size 1,1 -o o.txt");
     assert_eq!(output.status.code(), Some(0));
     assert!(String::from_utf8_lossy(&output.stderr).contains("2 points lie outside the torus"));
+    // Nobody has said that the torus is the unit one.
+    for line in ["optimize out.txt -o p.txt", "analyze out.txt", "compare out.txt --methods lloyd"] {
+        let said = shell.refused(line);
+        assert!(said.contains("which was assumed") && said.contains("(-0.5, 0.2) to (1.9, 0.7): give their --size"), "{line}: {said}");
+    }
+}
+
+#[test]
+fn points_carry_their_domain_along() {
+    let shell = Shell::new();
+    for (space, file) in [("torus", "a.txt"), ("rect", "b.geojson")] {
+        shell.ok(&format!("generate -n 300 --space {space} --size 640,480 --origin -1e6,7 -o {file}"));
+        let of = |flags: &str| json(&shell.ok(&format!("analyze {file} {flags} --json")));
+        assert_eq!(of(""), of(&format!("--space {space} --size 640,480 --origin -1e6,7")));
+        shell.ok(&format!("optimize {file} -o better-{file} --report run.json --force"));
+        let name = if space == "rect" { "rectangle" } else { space };
+        assert_eq!(json(&shell.read("run.json"))["space"]["kind"], name);
+        assert_eq!(json(&shell.ok(&format!("analyze better-{file} --json")))["n_points"], 300);
+    }
 }
 
 #[test]

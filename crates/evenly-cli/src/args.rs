@@ -192,7 +192,7 @@ impl Generate {
             start: self.start,
             no_warp: self.warp.no_warp,
             seed: self.seed,
-            space: self.space.domain(files)?,
+            space: self.space.domain(files)?.unwrap_or_default(),
             metric: self.metric.metric(),
             density: self.density.resource(),
             fixed: files.names(self.fixed.fixed.as_ref()),

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use evenly::{Density, PointSet, Polygon, Space};
-use evenly_io::{Columns, DensityFile, Photograph, TrianglesRead};
+use evenly::{Density, PointSet, Polygon};
+use evenly_io::{Columns, DensityFile, Extent, Photograph, TrianglesRead};
 use evenly_jobs::{Error, Resource, Resources, positioned};
 
+use crate::shared_args::SpaceArgs;
 use crate::talk::say;
 use crate::wording::{Flags, told};
 
@@ -17,8 +18,11 @@ pub struct Files {
     paths: HashMap<String, PathBuf>,
     /// How far off flattened curves of an SVG may be.
     pub curve_tolerance: Option<f64>,
-    /// The other columns of the points that were read last.
+    /// The other columns of the points that were read last, and the domain that they carry along.
     pub columns: Columns,
+    extent: Option<Extent>,
+    /// The picture, where it has been read before.
+    pub picture: Option<Photograph>,
 }
 
 impl Files {
@@ -42,8 +46,12 @@ impl Files {
 impl Resources for Files {
     fn positions(&mut self, name: &str) -> Result<Vec<[f64; 2]>, Error> {
         let table = evenly_io::read_table(&self.path(name))?;
-        self.columns = table.columns;
+        (self.columns, self.extent) = (table.columns, table.extent);
         Ok(table.positions)
+    }
+
+    fn extent(&mut self, _: &str) -> Option<Extent> {
+        self.extent
     }
 
     fn lengths(&mut self, name: &str) -> Result<Vec<[f64; 3]>, Error> {
@@ -79,7 +87,10 @@ impl Resources for Files {
     }
 
     fn picture(&mut self, name: &str) -> Result<Photograph, Error> {
-        Ok(Photograph::read(&self.path(name))?)
+        match self.picture.take() {
+            Some(picture) => Ok(picture),
+            None => Ok(Photograph::read(&self.path(name))?),
+        }
     }
 }
 
@@ -91,12 +102,11 @@ pub fn require_one_stdin<'a>(inputs: impl IntoIterator<Item = &'a PathBuf>) -> a
     Ok(())
 }
 
-/// Reads points; if some lay outside a torus and were wrapped, it says so.
-pub fn read_points(input: &Path, space: &Space) -> anyhow::Result<PointSet> {
+/// Reads points, and says what was done to them and their domain.
+pub fn read_points(input: &Path, space: &SpaceArgs) -> anyhow::Result<PointSet> {
     let mut files = Files::default();
-    let (points, note) = positioned(&files.name(input), space, &mut files).map_err(told)?;
-    if let Some(note) = note {
-        say(format_args!("note: {}: {}", input.display(), note.shown(&Flags)));
-    }
+    let domain = space.domain(&mut files)?;
+    let (points, notes) = positioned(&files.name(input), domain.as_ref(), &mut files).map_err(told)?;
+    notes.iter().for_each(|note| say(format_args!("note: {}: {}", input.display(), note.shown(&Flags))));
     Ok(points)
 }

@@ -12,6 +12,7 @@ mod mesh_args;
 mod method;
 mod page;
 mod parse;
+mod places;
 mod record;
 mod remesh_args;
 mod reproduce;

@@ -91,7 +91,7 @@ impl<'a> Session<'a> {
 
     /// Does a job, and shows how far it is.
     pub fn run(&mut self, job: impl FnOnce(&mut Context) -> Result<PointsOutcome, Error> + Send) -> anyhow::Result<PointsOutcome> {
-        let mut watch = Watch::new("{msg} [{bar:30}] {eta} left", &self.cancel, self.args.quiet);
+        let mut watch = Watch::new("{msg} [{bar:30}]{left}", &self.cancel, self.args.quiet);
         let outcome = watch.run(&self.pool, job)?;
         self.seconds.extend(watch.seconds());
         self.notes = watch.told;

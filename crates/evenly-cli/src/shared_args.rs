@@ -5,21 +5,20 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use evenly::{Density, PointSet, Space};
+use evenly::{Density, PointSet};
 use evenly_io::{DensityFile, Draw};
 use evenly_jobs::{Domain, Pixels, Resource};
 
 use crate::files::Files;
-use crate::talk::say;
-use crate::wording::{Flags, told};
 
 #[derive(Args)]
 pub struct SpaceArgs {
-    /// The domain: torus (periodic), rect (bounded), or a polygon's file
+    /// The domain: torus (periodic), rect (bounded), or a polygon's file [default: torus]
     ///
-    /// Sets of a torus tile the plane. Polygons are read as by mesh: GeoJSON, WKT, SVG, shapefile or text. Points stay inside, and see nothing across its border.
-    #[arg(long, value_name = "SPACE", default_value = "torus", value_parser = parse_space)]
-    space: SpaceArg,
+    /// Sets of a torus tile the plane. Polygons are read as by mesh: GeoJSON, WKT, SVG, shapefile or text. Points stay inside, and see nothing across its boundary. Points that evenly has written, as .txt or .geojson, carry their torus or rectangle along: it counts
+    /// where nothing else is given.
+    #[arg(long, value_name = "SPACE", value_parser = parse_space)]
+    space: Option<SpaceArg>,
     /// Width and height of a torus or rect [default: 1,1]
     #[arg(long, value_name = "W,H", value_parser = parse_pair, allow_hyphen_values = true)]
     size: Option<[f64; 2]>,
@@ -149,30 +148,23 @@ pub fn draw_parser() -> impl TypedValueParser<Value = Draw> {
 }
 
 impl SpaceArgs {
-    /// The domain as requests have it.
-    pub fn domain(&self, files: &mut Files) -> anyhow::Result<Domain> {
-        let (origin, size) = (self.origin.unwrap_or([0.0; 2]), self.size.unwrap_or([1.0; 2]));
+    /// The domain as requests have it; none where nothing is said of it.
+    pub fn domain(&self, files: &mut Files) -> anyhow::Result<Option<Domain>> {
+        let (origin, size) = (self.origin, self.size);
         Ok(match &self.space {
-            SpaceArg::Torus => Domain::Torus { origin, size },
-            SpaceArg::Rect => Domain::Rectangle { origin, size },
-            SpaceArg::Polygon(path) if self.origin.is_some() || self.size.is_some() => {
+            None if origin.is_none() && size.is_none() => None,
+            None | Some(SpaceArg::Torus) => Some(Domain::Torus { origin, size }),
+            Some(SpaceArg::Rect) => Some(Domain::Rectangle { origin, size }),
+            Some(SpaceArg::Polygon(path)) if origin.is_some() || size.is_some() => {
                 bail!("--size and --origin are for torus and rect; {} has its own", path.display())
             }
-            SpaceArg::Polygon(path) => Domain::Polygon { polygon: files.name(path) },
+            Some(SpaceArg::Polygon(path)) => Some(Domain::Polygon { polygon: files.name(path) }),
         })
-    }
-
-    /// The domain; what was repaired of it is said.
-    pub fn space(&self) -> anyhow::Result<Space> {
-        let mut files = Files::default();
-        let (space, repairs) = self.domain(&mut files)?.space(&mut files).map_err(told)?;
-        repairs.iter().for_each(|repair| say(format_args!("note: {}", repair.shown(&Flags))));
-        Ok(space)
     }
 
     /// The polygon's file, where it is one.
     pub fn path(&self) -> Option<&PathBuf> {
-        if let SpaceArg::Polygon(path) = &self.space { Some(path) } else { None }
+        if let Some(SpaceArg::Polygon(path)) = &self.space { Some(path) } else { None }
     }
 }
 

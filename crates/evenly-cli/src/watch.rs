@@ -1,15 +1,19 @@
 //! [`Watch`]: a job on threads, with a bar that shows how far it is, notes as they come, and the time that each stage takes.
 
 use std::collections::BTreeMap;
+use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use evenly::{CancelToken, Phase, Progress};
 use evenly_jobs::{Context, Error, Event, Stage};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 
 use crate::interrupt;
 use crate::talk::say;
 use crate::wording::{Flags, told};
+
+/// From this part of a run on the time left is shown.
+const FORESEEN: f32 = 0.05;
 
 pub struct Watch {
     bar: ProgressBar,
@@ -47,7 +51,10 @@ impl Watch {
     fn see(&mut self, event: Event) {
         match event {
             Event::Stage(Stage::Optimize) => interrupt::cancels(&self.cancel, self.is_quiet),
-            Event::Stage(stage) => self.clock.enter(name_of(stage)),
+            Event::Stage(stage) => {
+                self.bar.set_message(name_of(stage));
+                self.clock.enter(name_of(stage));
+            }
             Event::Progress(progress) => {
                 self.clock.enter(name_of_phase(progress.phase));
                 show(&self.bar, progress);
@@ -75,9 +82,17 @@ pub fn bar(is_quiet: bool, length: u64, template: &str) -> ProgressBar {
     }
     let bar = ProgressBar::new(length);
     if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style.progress_chars("=> "));
+        bar.set_style(style.with_key("left", time_left).progress_chars("=> "));
     }
     bar
+}
+
+/// The time left, once it is known a little.
+fn time_left(state: &ProgressState, out: &mut dyn Write) {
+    if state.fraction() >= FORESEEN {
+        // A bar without it is a bar as well.
+        let _ = write!(out, " {:#} left", HumanDuration(state.eta()));
+    }
 }
 
 /// Shows how far a run has come.

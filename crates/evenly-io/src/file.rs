@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::memory::{memory_limit, require};
 use crate::shapes::{SHAPEFILE, read_points_of_map};
-use crate::{Error, Format, Table, npy, table, text};
+use crate::{Error, Extent, Format, Table, npy, table, text};
 
 /// Reads points from a file, or from stdin for `-`. Numpy arrays and GeoJSON are known by their first bytes, all else is text.
 ///
@@ -23,7 +23,8 @@ pub fn read_positions(path: &Path) -> Result<Vec<[f64; 2]>, Error> {
 /// As [`read_positions`].
 pub fn read_table(path: &Path) -> Result<Table, Error> {
     let (name, bytes) = read_bytes(path)?;
-    let of_points = |positions| Table { positions, ..Table::default() };
+    let extent = Extent::find(&bytes);
+    let of_points = |positions| Table { positions, extent, ..Table::default() };
     if bytes.starts_with(b"\x93NUMPY") {
         return npy::read(&name, &bytes).map(of_points);
     }
@@ -34,7 +35,7 @@ pub fn read_table(path: &Path) -> Result<Table, Error> {
         return read_points_of_map(&name, &bytes).map(of_points);
     }
     match table::read(&name, &bytes)? {
-        Some(table) => Ok(table),
+        Some(table) => Ok(Table { extent, ..table }),
         None => text::read(&name, &bytes).map(of_points),
     }
 }

@@ -4,19 +4,21 @@ use evenly::PointSet;
 
 use crate::figure::{Draw, Subject, figure};
 use crate::meshes::map_of_points;
-use crate::{Columns, Error, Format, Target, npy, render, text};
+use crate::{Columns, Error, Extent, Format, Target, npy, render, text};
 
-/// Writes points, or a figure of them, as the target's format has it. The recipe goes along where the format has room for a comment.
+/// Writes points, or a figure of them, as the target's format has it. The recipe goes along where the format has room for a comment, and the domain.
 ///
 /// # Errors
 /// As [`Target::write`] and [`figure`].
 pub fn write_points(points: &PointSet, draw: &[Draw], recipe: &str, target: &Target) -> Result<(), Error> {
     let positions = points.positions();
+    let domain = Extent::of(points.space()).map_or_else(String::new, |extent| format!("\n{extent}"));
+    let with_domain = || format!("{recipe}{domain}");
     let bytes = match target.format() {
-        Format::Txt => text::write_txt(positions, recipe).into_bytes(),
+        Format::Txt => text::write_txt(positions, &with_domain()).into_bytes(),
         Format::Csv => text::write_csv(positions).into_bytes(),
         Format::Npy => npy::write(positions).map_err(Error::io(&target.name()))?,
-        Format::GeoJson => map_of_points(positions, recipe).into_bytes(),
+        Format::GeoJson => map_of_points(positions, &with_domain()).into_bytes(),
         Format::Svg | Format::Png | Format::Pdf => return write_figure(&points.into(), draw, recipe, target),
     };
     target.write(&bytes)

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use crate::Error;
 use crate::text::{is_name, parse, plain};
+use crate::{Error, Extent};
 
 /// How the columns of positions may be called.
 const NAMES: [[&str; 2]; 4] = [["x", "y"], ["lon", "lat"], ["longitude", "latitude"], ["easting", "northing"]];
@@ -17,6 +17,8 @@ pub struct Table {
     pub positions: Vec<[f64; 2]>,
     /// What else is said of them.
     pub columns: Columns,
+    /// Their domain, where the file carries it.
+    pub extent: Option<Extent>,
 }
 
 /// Columns of words, a row a point.
@@ -148,7 +150,7 @@ mod tests {
             "# made by hand\nid lat name lon\n7  2 a   1\n\n8 -4.5 \"b, c\" 3\n",
             "id,x,y,name\r7,1,2,a\r8,3,-4.5,\"b, c\"\r",
         ] {
-            let Table { positions, columns } = table(text);
+            let Table { positions, columns, .. } = table(text);
             assert_eq!(positions, expected, "{text:?}");
             assert_eq!(
                 (columns.names, columns.rows),
@@ -160,9 +162,9 @@ mod tests {
 
     #[test]
     fn a_table_that_is_written_reads_back() {
-        let Table { positions, columns } = table("x,y,what\n0.1,1e-300,\"a \"\"b\"\", c\"\n-5,7,\n");
+        let Table { positions, columns, .. } = table("x,y,what\n0.1,1e-300,\"a \"\"b\"\", c\"\n-5,7,\n");
         let again = read("q.csv", &columns.csv(&positions)).unwrap().unwrap();
-        assert_eq!(again, Table { positions, columns });
+        assert_eq!(again, Table { positions, columns, extent: None });
     }
 
     #[test]

@@ -37,8 +37,8 @@ pub struct CompareRequest {
     pub no_warp: bool,
     /// The first run's seed.
     pub seed: u64,
-    /// Where the points are.
-    pub space: Domain,
+    /// Where the points are; where the file of given ones says, or else in the unit torus.
+    pub space: Option<Domain>,
     /// In whose units distances count.
     pub metric: Metric,
     /// How many are wanted where.
@@ -56,7 +56,7 @@ impl Default for CompareRequest {
             start: None,
             no_warp: false,
             seed: 0,
-            space: Domain::default(),
+            space: None,
             metric: Metric::Input,
             density: None,
         }
@@ -160,9 +160,20 @@ impl CompareRequest {
     /// # Errors
     /// Parts that do not go together, what methods are told wrongly, and data that cannot be worked with.
     pub fn run(&self, resources: &mut dyn Resources, context: &mut Context) -> Result<CompareOutcome, Error> {
-        let (space, repairs) = self.space.space(resources)?;
+        context.enter(Stage::Read);
         let mut notes = Vec::new();
-        repairs.into_iter().for_each(|repair| context.note(&mut notes, repair));
+        let (space, given) = match &self.points {
+            Some(points) => {
+                let (points, told) = positioned(points, self.space.as_ref(), resources)?;
+                told.into_iter().for_each(|note| context.note(&mut notes, note));
+                (points.space().clone(), Some(points))
+            }
+            None => {
+                let (space, repairs) = self.space.clone().unwrap_or_default().space(resources)?;
+                repairs.into_iter().for_each(|repair| context.note(&mut notes, repair));
+                (space, None)
+            }
+        };
         let compared = self.compared(&space);
         let methods: Vec<Method> = compared.iter().map(|each| each.method).collect();
         Job::Generate.require_taken(&self.parameters, &methods)?;
@@ -172,11 +183,7 @@ impl CompareRequest {
         if let Some(start) = self.start {
             Job::Start.require("start", start)?;
         }
-        context.enter(Stage::Read);
         let density = density_of(self.density.as_ref(), resources)?;
-        let given = self.points.as_ref().map(|points| positioned(points, &space, resources)).transpose()?;
-        let (given, note) = given.unzip();
-        note.flatten().into_iter().for_each(|note| context.note(&mut notes, note));
         let given = given.map(|points| measured_in(self.metric, points.with_density(&density))).transpose()?.map(|(points, _)| points);
         let space = if self.metric == Metric::Unit { space.in_unit_square() } else { space };
         let n_points = given.as_ref().map(PointSet::n_points).or(self.n_points);

@@ -14,7 +14,7 @@ use crate::memory;
 use crate::message::Message;
 use crate::method::{Job, in_spacings, optimizer, require_beginning, require_density, require_density_of_start};
 use crate::resource::{Pixels, Positions, Resource, Resources, called};
-use crate::space::{Domain, Metric};
+use crate::space::{Domain, Metric, Place};
 
 /// Points from nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -84,9 +84,9 @@ pub struct OptimizeRequest {
     /// The same seed makes the same points.
     #[serde(default)]
     pub seed: u64,
-    /// Where they are.
+    /// Where they are; where their file says, or else in the unit torus.
     #[serde(default)]
-    pub space: Domain,
+    pub space: Option<Domain>,
     /// In whose units distances count.
     #[serde(default)]
     pub metric: Metric,
@@ -217,7 +217,7 @@ impl OptimizeRequest {
             parameters: Settings::default(),
             no_warp: false,
             seed: 0,
-            space: Domain::default(),
+            space: None,
             metric: Metric::Input,
             density: None,
             fixed: None,
@@ -243,13 +243,11 @@ impl OptimizeRequest {
     /// As [`check`](Self::check), for data that cannot be worked with, and as the method.
     pub fn run(&self, resources: &mut dyn Resources, context: &mut Context) -> Result<PointsOutcome, Error> {
         self.check()?;
-        let (space, repairs) = self.space.space(resources)?;
-        let mut notes = Vec::new();
-        repairs.into_iter().for_each(|repair| context.note(&mut notes, repair));
-        let fixed = fixed_of(self.fixed.as_ref(), &space, resources)?;
         context.enter(Stage::Read);
-        let (points, note) = positioned(&self.points, &space, resources)?;
-        note.into_iter().for_each(|note| context.note(&mut notes, note));
+        let (points, told) = positioned(&self.points, self.space.as_ref(), resources)?;
+        let mut notes = Vec::new();
+        told.into_iter().for_each(|note| context.note(&mut notes, note));
+        let fixed = fixed_of(self.fixed.as_ref(), points.space(), resources)?;
         let points = joined(&fixed, points)?;
         memory::require_points(points.n_points(), self.method)?;
         let density = density_of(self.density.as_ref(), resources)?;
@@ -413,22 +411,35 @@ fn fixed_of(fixed: Option<&Resource<Positions>>, space: &Space, resources: &mut 
     points.map_err(|error| Error::of(error, called(fixed), &[("n_fixed", "fixed")]))
 }
 
-/// Points in a domain, and a note if some lay outside of a torus.
+/// Points in a domain, and what was done to it and to them: those outside of a torus are wrapped into it.
 ///
 /// # Errors
-/// As [`Resources::positions`] and [`PointSet::new`].
+/// As [`Resources::positions`] and [`PointSet::new`]; points outside of a domain that nobody has named.
 pub fn positioned(
     points: &Resource<Positions>,
-    space: &Space,
+    domain: Option<&Domain>,
     resources: &mut dyn Resources,
-) -> Result<(PointSet, Option<Message>), Error> {
+) -> Result<(PointSet, Vec<Message>), Error> {
     let positions = points.get(resources)?;
-    let n_outside = positions.iter().filter(|p| is_outside(space, p)).count();
-    let set = PointSet::new(space, positions).map_err(|error| Error::of(error, points.called(), &[]))?;
+    let carried = resources.extent(points.called());
+    let Place { space, is_assumed, mut notes } = Domain::place(domain, carried, resources)?;
+    let n_outside = positions.iter().filter(|p| is_outside(&space, p)).count();
     let [lie, were] =
         if n_outside == 1 { ["1 point lies".to_owned(), "was".into()] } else { [format!("{n_outside} points lie"), "were".into()] };
-    let note = Message::from(format!("{lie} outside the torus {space} and {were} wrapped into it; are ")).name("size").text(" and ");
-    Ok((set, (n_outside > 0).then(|| note.name("origin").text(" right?"))))
+    let is_finite = positions.iter().flatten().all(|x| x.is_finite());
+    if n_outside > 0 && is_assumed && is_finite {
+        let bound = |of: fn(f64, f64) -> f64| [0, 1].map(|axis| positions.iter().map(|p| p[axis]).reduce(of).unwrap_or(0.0));
+        let ([x, y], [right, top]) = (bound(f64::min), bound(f64::max));
+        let outside = format!("{}: {lie} outside the {} {space}, which was assumed; ", points.called(), space.kind());
+        let span = Message::from(format!("{outside}they span ({x}, {y}) to ({right}, {top}): give their "));
+        return Err(span.name("size").text(", and ").name("origin").text(" where that is not 0,0").into());
+    }
+    let set = PointSet::new(&space, positions).map_err(|error| Error::of(error, points.called(), &[]))?;
+    if n_outside > 0 {
+        let note = Message::from(format!("{lie} outside the torus {space} and {were} wrapped into it; are ")).name("size").text(" and ");
+        notes.push(note.name("origin").text(" right?"));
+    }
+    Ok((set, notes))
 }
 
 fn is_outside(space: &Space, p: &[f64; 2]) -> bool {

@@ -1,7 +1,7 @@
 //! [`Resource`]: data that go with a request, or the name under which the face finds them.
 
 use evenly::{Density, Polygon, Shape, TriangleMesh};
-use evenly_io::{Photograph, TrianglesRead};
+use evenly_io::{Extent, Photograph, TrianglesRead};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -25,6 +25,11 @@ pub trait Resources {
     /// [`Error::Resource`], as all of these: where there is nothing of the name, or not what is asked for.
     fn positions(&mut self, name: &str) -> Result<Vec<[f64; 2]>, Error> {
         unknown(name)
+    }
+
+    /// The domain that the points of a name carry along, if they do.
+    fn extent(&mut self, _name: &str) -> Option<Extent> {
+        None
     }
 
     /// Rows of three numbers: places and lengths.

@@ -110,7 +110,7 @@ fn requests() -> Vec<Request> {
         parameters: parameters.clone(),
         no_warp,
         seed,
-        space: Domain::Rectangle { origin: [1.0, 2.0], size: [3.0, 4.0] },
+        space: Some(Domain::Rectangle { origin: Some([1.0, 2.0]), size: Some([3.0, 4.0]) }),
         metric,
         density: density.clone(),
         fixed: fixed.clone(),
@@ -174,7 +174,7 @@ fn requests() -> Vec<Request> {
         start,
         no_warp,
         seed,
-        space: polygon,
+        space: Some(polygon),
         metric,
         density,
     };

@@ -194,6 +194,16 @@ impl StippleRequest {
         spread::optimizer(self.method, &self.parameters, self.seed).map(drop)
     }
 
+    /// The area that all dots together must have to be as dark as a picture is to be, in pixels.
+    ///
+    /// # Errors
+    /// Tones outside their range.
+    pub fn ink_area(&self, picture: &Photograph) -> Result<f64, Error> {
+        let [width, height] = picture.size();
+        let darkness: f64 = Ink::of(picture, &self.tone.tone()?, self.layers).iter().map(|ink| ink.mean_darkness).sum();
+        Ok(darkness * (width * height) as f64)
+    }
+
     /// Makes the dots.
     ///
     /// # Errors

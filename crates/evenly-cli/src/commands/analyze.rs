@@ -21,7 +21,6 @@ pub fn run(args: &Analyze) -> anyhow::Result<u8> {
     if args.certify.is_some() {
         bail!("--certify is for a mesh, as .ply .obj .off .stl .gltf or .glb");
     }
-    let space = args.space.space()?;
     let plot = args.plot.as_ref().map(|path| Target::figure(path, args.measured.force)).transpose()?;
     if args.local && args.inputs.len() > 1 {
         bail!("--local is for one set");
@@ -34,7 +33,7 @@ pub fn run(args: &Analyze) -> anyhow::Result<u8> {
     }
     files::require_one_stdin(args.inputs.iter().chain(&args.density.path()).chain(args.space.path()))?;
     let density = args.density.density()?;
-    let read = |path: &PathBuf| Ok(args.metric.applied(files::read_points(path, &space)?.with_density(&density))?);
+    let read = |path: &PathBuf| Ok(args.metric.applied(files::read_points(path, &args.space)?.with_density(&density))?);
     let sets: Vec<PointSet> = args.inputs.iter().map(read).collect::<anyhow::Result<_>>()?;
     let is_local = args.local || args.density.is_given();
     let pool = session::pool(args.measured.threads, false)?;

@@ -17,7 +17,7 @@ pub fn run(args: &Bilateral) -> anyhow::Result<u8> {
     }
     files::require_one_stdin([&args.input, &args.samples])?;
     let image = read_image(&args.input)?;
-    let samples = files::read_points(&args.samples, &args.space.space()?)?;
+    let samples = files::read_points(&args.samples, &args.space)?;
     let params = BilateralParams { kernel_px: args.kernel, range: args.range, n_samples: args.count };
     let pool = session::pool(args.measured.threads, false)?;
     let told = |e| measured::told(e, &args.samples, &[("kernel_px", "kernel"), ("n_samples", "count")]);

@@ -11,13 +11,16 @@ use serde_json::Value;
 
 use crate::files::{Files, require_one_stdin};
 use crate::mesh_args::Mesh;
+use crate::places::{Place, counted, places};
 use crate::talk::say;
 use crate::watch::Watch;
 use crate::wording::{Flags, told};
 use crate::{interrupt, record, session};
 
 /// How many places are named where a demand was not met.
-const NAMED: usize = 5;
+const NAMED: usize = 3;
+/// Triangles are at one place within so many of the longest edges.
+const NEAR: f64 = 3.0;
 
 pub fn run(args: &Mesh) -> anyhow::Result<u8> {
     let begin = Instant::now();
@@ -153,10 +156,17 @@ fn summarize(name: &str, record: &MeshRecord, told: &[String]) {
         uncovered_area / record.polygon_area
     ));
     quality.size_errors.iter().for_each(say);
-    for unmet in record.unmet.iter().take(NAMED) {
-        say(format_args!("not reached: {unmet}"));
-    }
-    if record.unmet.len() > NAMED {
-        say(format_args!("not reached: {} more triangles; --report has all", record.unmet.len() - NAMED));
+    for demand in ["min angle", "no obtuse"] {
+        let unmet: Vec<&UnmetAngle> = record.unmet.iter().filter(|unmet| unmet.demand == demand).collect();
+        let places = places(&unmet, NEAR * max_edge, |unmet| unmet.at);
+        if !unmet.is_empty() {
+            say(format_args!("not reached: {demand}: {}", counted(unmet.len(), &places)));
+        }
+        for Place { n, worst: UnmetAngle { angle_deg, at: [x, y], why, .. } } in places.iter().take(NAMED) {
+            say(format_args!("  {n} here, the worst with {angle_deg:.2} degrees at ({x}, {y}), {why}"));
+        }
+        if places.len() > NAMED {
+            say(format_args!("  {} more places; --report has all", places.len() - NAMED));
+        }
     }
 }

@@ -10,6 +10,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::files::{Files, require_one_stdin};
+use crate::places::{Place, counted, places};
 use crate::remesh_args::Remesh;
 use crate::talk::say;
 use crate::watch::Watch;
@@ -17,7 +18,9 @@ use crate::wording::{Flags, told};
 use crate::{interrupt, record, session};
 
 /// How many places are named where angles are not as the targets imply.
-const NAMED: usize = 5;
+const NAMED: usize = 3;
+/// Triangles are at one place within so many of the longest edges.
+const NEAR: f64 = 3.0;
 
 pub fn run(args: &Remesh) -> anyhow::Result<u8> {
     let begin = Instant::now();
@@ -161,11 +164,14 @@ fn summarize(name: &str, record: &RemeshRecord, told: &[String]) {
     for missed in record.missed {
         say(format_args!("not reached: {missed}"));
     }
-    for breach in record.breaches.iter().take(NAMED) {
-        let CertificateBreach { at: [x, y, z], min_angle_deg, max_angle_deg, .. } = breach;
-        say(format_args!("not as the targets imply: a triangle of {min_angle_deg:.2} to {max_angle_deg:.2} degrees at ({x}, {y}, {z})"));
+    let places = places(record.breaches, NEAR * quality.max_edge, |breach| breach.at);
+    if !record.breaches.is_empty() {
+        say(format_args!("not as the targets imply: {}", counted(record.breaches.len(), &places)));
     }
-    if record.breaches.len() > NAMED {
-        say(format_args!("not as the targets imply: {} more triangles; --report has all", record.breaches.len() - NAMED));
+    for Place { n, worst: CertificateBreach { at: [x, y, z], min_angle_deg, max_angle_deg, .. } } in places.iter().take(NAMED) {
+        say(format_args!("  {n} here, the worst of {min_angle_deg:.2} to {max_angle_deg:.2} degrees at ({x}, {y}, {z})"));
+    }
+    if places.len() > NAMED {
+        say(format_args!("  {} more places; --report has all", places.len() - NAMED));
     }
 }

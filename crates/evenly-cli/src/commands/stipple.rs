@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use evenly::{CancelToken, PointSet, Rectangle, tessellate};
-use evenly_io::{Drawing, Format, Layer, Marks, Target, write_points};
+use evenly_io::{Drawing, Format, Layer, Marks, Photograph, Target, write_points};
 use evenly_jobs::{DotLayer, Ending, StippleOutcome, ToneReport};
 use serde::Serialize;
 
@@ -21,6 +21,10 @@ use crate::{record, session};
 const FINEST_MM: f64 = 0.001;
 /// The width of edges, where none is given.
 const LINE_MM: f64 = 0.3;
+/// Pens that are sold.
+const PENS_MM: [f64; 7] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0];
+/// Widths by less than this ratio away from a pen's are drawn by it.
+const SAME: f64 = 1.45;
 
 pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     let begin = Instant::now();
@@ -36,17 +40,24 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
     request.check().map_err(told)?;
     let pool = session::pool(args.run.threads, args.run.quiet)?;
     let cancel = CancelToken::default();
-    let mut watch = Watch::new("{msg} [{bar:30}] {eta} left", &cancel, args.run.quiet);
+    let mut watch = Watch::new("{msg} [{bar:30}]{left}", &cancel, args.run.quiet);
     let name = args.input.display().to_string();
+    let picture = Photograph::read(&args.input)?;
+    let paper = Paper::new(&args.page, args.margin, picture.size())?;
+    if let Some(pen) = args.pen.filter(|_| !args.run.quiet && args.edges.is_none()) {
+        // Before the work: whoever reads it may want another pen. Dots of several sizes are paler still.
+        let share = args.n_points as f64 * dot_area(pen / paper.mm_per_px) / request.ink_area(&picture).map_err(told)?;
+        ink_note(share, args.n_points, pen, true).into_iter().for_each(say);
+    }
+    files.picture = Some(picture);
     let made = watch.run(&pool, |context| request.run(&mut files, context))?;
     let StippleOutcome { layers: drawn, picture_px, .. } = &made;
-    let paper = Paper::new(&args.page, args.margin, *picture_px)?;
     let pen_mm = args.pen.unwrap_or_else(|| match args.edges {
         Some(_) => LINE_MM,
         None => {
-            // The widest that suits all layers, as pens are sold: to a hundredth of a millimetre, where that is fine enough.
+            // The widest that suits all layers, as pens are sold.
             let mm = drawn.iter().map(|drawn| drawn.widest_px).fold(f64::INFINITY, f64::min) * paper.mm_per_px;
-            if mm > 0.05 { (100.0 * mm).floor() / 100.0 } else { mm }
+            sold(mm)
         }
     });
     let layers = drawn.iter().map(|drawn| layer(drawn, args, &paper, pen_mm)).collect::<Result<Vec<Layer>, evenly::Error>>();
@@ -70,8 +81,8 @@ pub fn run(args: &Stipple) -> anyhow::Result<u8> {
         say(format_args!("{}: {n_points} dots, seed {}{how}, {seconds:.2} s", targets.output.name(), args.seed));
         let way = if args.edges.is_none() { format!("; between dots the pen goes {:.2} m", 1e-3 * pen_up_mm.abs()) } else { String::new() };
         say(format_args!("paper {width} x {height} mm, pen {pen_mm:.3} mm{way}"));
-        if args.edges.is_none() {
-            ink_note(drawn, pen_mm, paper.mm_per_px, args.pen.is_some()).into_iter().for_each(say);
+        if args.edges.is_none() && args.pen.is_none() {
+            ink_note(share(drawn, pen_mm / paper.mm_per_px), n_points, pen_mm, false).into_iter().for_each(say);
         }
     }
     if let Some(report) = &targets.report {
@@ -185,18 +196,30 @@ fn layer_record(drawn: &DotLayer, pen_px: f64) -> Result<Option<LayerRecord>, ev
 const USUAL_INK: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 const USUAL_OF_WIDEST: f64 = 0.5;
 
+/// The area of a dot of this diameter.
+fn dot_area(diameter: f64) -> f64 {
+    0.25 * std::f64::consts::PI * diameter * diameter
+}
+
+/// The part of the picture's darkness that dots have.
+fn share(drawn: &[DotLayer], pen_px: f64) -> f64 {
+    let ink: f64 = drawn.iter().flat_map(|drawn| &drawn.areas).map(|area| area * dot_area(pen_px)).sum();
+    ink / drawn.iter().map(|drawn| drawn.mean_darkness * drawn.points.space().area()).sum::<f64>()
+}
+
+/// The pen that is sold next to this width, by the ratio of the two; what is finer or wider than any is taken as it is.
+fn sold(mm: f64) -> f64 {
+    let away = |pen: f64| if pen > mm { pen / mm } else { mm / pen };
+    let nearest = PENS_MM.into_iter().min_by(|&a, &b| away(a).total_cmp(&away(b)));
+    nearest.filter(|&pen| away(pen) < SAME).unwrap_or(mm)
+}
+
 /// Says that dots are much paler than the picture, or darker, and what would do.
-fn ink_note(drawn: &[DotLayer], pen_mm: f64, mm_per_px: f64, is_pen_given: bool) -> Option<String> {
-    let pen_px = pen_mm / mm_per_px;
-    let of_dots = |drawn: &DotLayer| drawn.areas.iter().map(|area| 0.25 * std::f64::consts::PI * pen_px * pen_px * area).sum::<f64>();
-    let ink: f64 = drawn.iter().map(of_dots).sum();
-    let wanted: f64 = drawn.iter().map(|drawn| drawn.mean_darkness * drawn.points.space().area()).sum();
-    let share = ink / wanted;
-    let is_usual = USUAL_INK.contains(&share) || !is_pen_given && (USUAL_OF_WIDEST..1.0).contains(&share);
+fn ink_note(share: f64, n_points: usize, pen_mm: f64, is_pen_given: bool) -> Option<String> {
+    let is_usual = USUAL_INK.contains(&share) || !is_pen_given && (USUAL_OF_WIDEST..=USUAL_INK.end() * 1.2).contains(&share);
     if !share.is_finite() || is_usual {
         return None;
     }
-    let n_points: usize = drawn.iter().map(|drawn| drawn.points.n_points()).sum();
     let digits = if share < 0.1 { 2 } else { 0 };
     let whole = format!("note: the dots have {:.digits$} % of the picture's darkness", 100.0 * share);
     Some(if is_pen_given || share > 1.0 {

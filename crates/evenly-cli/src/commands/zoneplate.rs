@@ -8,7 +8,7 @@ use crate::{files, measured, record, session};
 
 pub fn run(args: &Zoneplate) -> anyhow::Result<u8> {
     let output = args.output.as_ref().map(|path| Target::picture(path, args.measured.force)).transpose()?;
-    let points = files::read_points(&args.input, &args.space.space()?)?;
+    let points = files::read_points(&args.input, &args.space)?;
     let params = ZonePlateParams { pixels: args.pixels, max_frequency: args.frequency, filter: args.filter.into() };
     let pool = session::pool(args.measured.threads, false)?;
     let plate =

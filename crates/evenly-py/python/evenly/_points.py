@@ -233,7 +233,7 @@ def optimize(
     True
     """
     positions = rows(points)
-    where = space_of(space, size, origin, points.space if isinstance(points, Points) else None)
+    where = space_of(space, size, origin, points.space if isinstance(points, Points) else None, positions)
     units = metric or (points.metric if isinstance(points, Points) else "input")
     chance = number(seed)
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)

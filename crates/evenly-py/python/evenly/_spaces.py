@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenly import _evenly
 from evenly._arrays import rows
@@ -98,8 +99,12 @@ class Polygon:
 Space: TypeAlias = Torus | Rectangle | Polygon
 
 
-def space_of(space: object, size: Pair | None, origin: Pair | None, default: Space | None = None) -> Space:
-    """Return the domain that the arguments stand for."""
+def space_of(
+    space: object, size: Pair | None, origin: Pair | None, default: Space | None = None, points: "NDArray[Any] | None" = None
+) -> Space:
+    """Return the domain that the arguments stand for; where they say nothing, it must hold the points."""
+    if points is not None and space is None and size is None and origin is None and default is None:
+        _require_inside_unit(points)
     if space is None:
         space = default if default is not None and size is None and origin is None else "torus"
     if isinstance(space, (Torus, Rectangle, Polygon)):
@@ -129,6 +134,15 @@ def native(space: Space, metric: Metric = "input") -> Any:
     if isinstance(space, Polygon):
         return ([list(ring) for ring in space.rings], is_unit)
     return ("torus" if isinstance(space, Torus) else "rectangle", space.origin, space.size, is_unit)
+
+
+def _require_inside_unit(points: "NDArray[Any]") -> None:
+    n_outside = int(((points < 0) | (points > 1)).any(axis=1).sum())
+    if n_outside > 0:
+        low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        raise ValueError(
+            f"{n_outside} points lie outside the unit torus, which was assumed; they span {low} to {high}: give their space, or size and origin"
+        )
 
 
 def domain(space: Space) -> dict[str, object]:
