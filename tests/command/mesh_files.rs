@@ -230,3 +230,23 @@ fn regions_stay_apart() {
     shell.ok("mesh parcels.json --edge-length 50 --regions -q -o parcels.npz");
     assert!(shell.refused("mesh parcels.json --edge-length 50 --regions --simplify 1 -o no.msh").contains("--regions"));
 }
+
+/// What `mesh` writes, `analyze` and `remesh` read.
+#[test]
+fn meshes_are_read_again() {
+    let shell = Shell::new();
+    shell.write("l.txt", "0 0\n2 0\n2 1\n1 1\n1 2\n0 2\n");
+    for ending in ["msh", "vtu", "npz", "obj", "ply", "off"] {
+        shell.ok(&format!("mesh l.txt --edge-length 0.2 -o l.{ending} --report l.json --force"));
+        let found = json(&shell.ok(&format!("analyze l.{ending} --json")));
+        let made = json(&shell.read("l.json"));
+        assert_eq!(
+            (&found["n_triangles"], &found["n_vertices"]),
+            (&made["quality"]["n_triangles"], &made["quality"]["n_vertices"]),
+            "{ending}"
+        );
+        assert!((found["area"].as_f64().unwrap() - 3.0).abs() < 1e-9, "{ending}");
+        assert!((found["min_angle_deg"].as_f64().unwrap() - made["quality"]["min_angle_deg"].as_f64().unwrap()).abs() < 1e-6, "{ending}");
+    }
+    shell.ok("remesh l.msh -n 200 -o again.vtu");
+}

@@ -11,7 +11,7 @@ use crate::shared_args::{DensityArgs, LongArgs, MetricArg, SpaceArgs, draw_parse
 #[derive(Args)]
 #[command(after_help = "Examples:\n  evenly analyze points.txt --plot report.pdf\n  evenly analyze a.txt b.txt c.txt --spectrum --json")]
 pub struct Analyze {
-    /// Points as .txt, .csv, .npy or .geojson; - is stdin. Of several sets the spectrum is the mean of theirs. Or a mesh, as .ply .obj .off .stl .gltf .glb; or, with --reference, points on one, as .ply, .csv or .txt
+    /// Points as .txt, .csv, .npy or .geojson; - is stdin. Of several sets the spectrum is the mean of theirs. Or a mesh, as .ply .obj .off .stl .gltf .glb .msh .vtu .npz; or, with --reference, points on one, as .ply, .csv or .txt
     #[arg(required = true)]
     pub inputs: Vec<PathBuf>,
     /// Of a mesh: the one that it stands for, for the distance to it. Of points in space: the mesh on which they lie

@@ -16,7 +16,7 @@ use crate::shared_args::LongArgs;
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  evenly remesh bunny.obj -n 8500 -o out.ply\n  evenly remesh part.stl --edge-length 2.5 --features 30deg -o part.obj\n  evenly remesh scan.ply -n 20000 --density curvature -o out.ply --plot out.png\n\n\
-                  Meshes: .obj .ply .stl .off .gltf .glb; positions that are equal are one. Vertices carry facet, barycentric coordinates, normal, and what the input's carry, in .ply .vtu .npz.\n\
+                  Meshes: .obj .ply .stl .off .gltf .glb .msh .vtu .npz; positions that are equal are one. Vertices carry facet, barycentric coordinates, normal, and what the input's carry, in .ply .vtu .npz.\n\
                   Red triangles in drawings have an angle below 30 degrees, light red ones are obtuse.\n\
                   Exit code 1: the mesh is written, but targets that were given were not reached everywhere, or without them a triangle is obtuse or has an angle below 30 degrees; where is said."
 )]

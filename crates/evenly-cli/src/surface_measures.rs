@@ -1,6 +1,6 @@
 //! What `analyze` finds of a mesh in space, and of points on one.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use evenly::{
@@ -19,12 +19,6 @@ use crate::{files, measured, record, session};
 const BETA: f64 = 0.63 / 0.90;
 /// So many triangles are named that cross others.
 const NAMED: usize = 20;
-
-/// Whether a file holds a mesh, or points, in space by its name.
-pub fn is_in_space(path: &Path) -> bool {
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    ["ply", "obj", "off", "stl", "gltf", "glb"].iter().any(|known| ending.eq_ignore_ascii_case(known))
-}
 
 /// All that is found of a mesh.
 #[derive(Serialize)]

@@ -45,7 +45,7 @@ pub use render::rendered;
 pub use scraps::Scraps;
 pub use shapes::{read_lines, read_polygon, read_regions};
 pub use surfaces::{
-    TrianglesRead, read_triangles, read_triangles_or_points, round_as_stl, stl_rounding, triangles_svg, write_triangles,
+    TrianglesRead, is_mesh_file, read_triangles, read_triangles_or_points, round_as_stl, stl_rounding, triangles_svg, write_triangles,
     write_triangles_figure,
 };
 pub use table::{Columns, Table};

@@ -6,17 +6,31 @@ use crate::Error;
 
 /// Reads points from the bytes of the `.npy` file `name`: floats and integers, either order.
 pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
+    let ([n_rows, n_columns], numbers) = read_table(name, bytes)?;
+    if n_columns != 2 {
+        return Err(Error::content(name, format!("its shape is [{n_rows}, {n_columns}], expected (n, 2)")));
+    }
+    if n_rows == 0 {
+        return Err(Error::content(name, "there are no points in it"));
+    }
+    let points = numbers.as_chunks::<2>().0.to_vec();
+    match points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        Some(row) => Err(Error::content(name, format!("row {row} is ({}, {}), which is not finite", points[row][0], points[row][1]))),
+        None => Ok(points),
+    }
+}
+
+/// Reads rows of numbers: how many, of how many columns, and the numbers row by row.
+pub(crate) fn read_table(name: &str, bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), Error> {
     let problem = |text: String| Error::content(name, text);
     let file = NpyFile::new(bytes).map_err(|e| problem(format!("this is no .npy file: {e}")))?;
-    let &[n_rows, 2] = file.shape() else {
+    let &[n_rows, n_columns] = file.shape() else {
         return Err(problem(format!("its shape is {:?}, expected (n, 2)", file.shape())));
     };
-    if n_rows == 0 {
-        return Err(problem("there are no points in it".into()));
-    }
-    if n_rows > bytes.len() as u64 {
+    if n_rows.saturating_mul(n_columns) > bytes.len() as u64 {
         return Err(problem(format!("its header promises {n_rows} points, but the file is too short")));
     }
+    let shape = [n_rows as usize, n_columns as usize];
     let order = file.order();
     let kind = file.dtype().descr();
     let cut_short = |e: std::io::Error| problem(format!("it cannot be read to its end: {e}"));
@@ -38,17 +52,14 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<[f64; 2]>, Error> {
         "u1" => numbers!(u8),
         _ => return Err(problem(format!("its numbers are {kind}, expected floats or integers of 8 to 64 bits"))),
     };
-    let points: Vec<[f64; 2]> = match order {
-        Order::C => numbers.chunks_exact(2).map(|row| [row[0], row[1]]).collect(),
-        Order::Fortran => {
-            let (x, y) = numbers.split_at(numbers.len() / 2);
-            x.iter().zip(y).map(|(&x, &y)| [x, y]).collect()
-        }
-    };
-    match points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-        Some(row) => Err(problem(format!("row {row} is ({}, {}), which is not finite", points[row][0], points[row][1]))),
-        None => Ok(points),
-    }
+    let [n_rows, n_columns] = shape;
+    Ok((
+        shape,
+        match order {
+            Order::C => numbers,
+            Order::Fortran => (0..n_rows * n_columns).map(|k| numbers[k % n_columns * n_rows + k / n_columns]).collect(),
+        },
+    ))
 }
 
 /// Writes float64 in C order.

@@ -1,13 +1,16 @@
-//! Meshes in space from files and into files: Wavefront, Stanford's, stereolithography, Geomview's, glTF. Units are kept.
+//! Meshes in space from files and into files: Wavefront, Stanford's, stereolithography, Geomview's, glTF, Gmsh's, VTK's, numpy's. Units are kept.
 
 mod building;
 mod gltf;
 mod lines;
+mod msh;
+mod npz;
 mod obj;
 mod off;
 mod ply;
 mod polygons;
 mod stl;
+mod vtu;
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -37,10 +40,28 @@ enum Kind {
     Stl,
     Off,
     Gltf,
+    Msh,
+    Vtu,
+    Npz,
 }
 
-const ENDINGS: [(&str, Kind); 6] =
-    [("obj", Kind::Obj), ("ply", Kind::Ply), ("stl", Kind::Stl), ("off", Kind::Off), ("gltf", Kind::Gltf), ("glb", Kind::Gltf)];
+const ENDINGS: [(&str, Kind); 9] = [
+    ("obj", Kind::Obj),
+    ("ply", Kind::Ply),
+    ("stl", Kind::Stl),
+    ("off", Kind::Off),
+    ("gltf", Kind::Gltf),
+    ("glb", Kind::Gltf),
+    ("msh", Kind::Msh),
+    ("vtu", Kind::Vtu),
+    ("npz", Kind::Npz),
+];
+
+/// Whether a file is one of a mesh in space, by its ending.
+pub fn is_mesh_file(path: &Path) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    ENDINGS.iter().any(|(known, _)| ending.eq_ignore_ascii_case(known))
+}
 
 /// Reads triangles. The file's ending tells the format; where it does not, or for `-`, its first bytes do.
 ///
@@ -106,6 +127,9 @@ fn evident(bytes: &[u8]) -> Option<Kind> {
         b"ply" => Some(Kind::Ply),
         b"solid" => Some(Kind::Stl),
         b"v" | b"vn" | b"vt" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" => Some(Kind::Obj),
+        b"$MeshFormat" | b"$Comments" => Some(Kind::Msh),
+        _ if bytes.starts_with(b"PK\x03\x04") => Some(Kind::Npz),
+        _ if first.starts_with(b"<?xml") || first.starts_with(b"<VTKFile") => Some(Kind::Vtu),
         _ if first.ends_with(b"OFF") => Some(Kind::Off),
         _ if first.starts_with(b"glTF") || first.starts_with(b"{") => Some(Kind::Gltf),
         _ if stl::is_binary(bytes) => Some(Kind::Stl),
@@ -115,7 +139,7 @@ fn evident(bytes: &[u8]) -> Option<Kind> {
 
 /// `folder` is where other files lie that this one names.
 fn parse(kind: Kind, name: &str, bytes: &[u8], folder: &Path) -> Result<TrianglesRead, Error> {
-    let is_binary = bytes.starts_with(b"glTF") || stl::is_binary(bytes) || ply::is_binary(bytes);
+    let is_binary = [Kind::Npz, Kind::Vtu].contains(&kind) || bytes.starts_with(b"glTF") || stl::is_binary(bytes) || ply::is_binary(bytes);
     let text = if is_binary { Cow::Borrowed(bytes) } else { text::plain(bytes) };
     let bytes = &*text;
     match kind {
@@ -124,6 +148,9 @@ fn parse(kind: Kind, name: &str, bytes: &[u8], folder: &Path) -> Result<Triangle
         Kind::Stl => stl::read(name, bytes),
         Kind::Off => off::read(name, bytes),
         Kind::Gltf => gltf::read(name, bytes, folder),
+        Kind::Msh => msh::read(name, bytes),
+        Kind::Vtu => vtu::read(name, bytes),
+        Kind::Npz => npz::read(name, bytes),
     }
 }
 

@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use evenly::{
     Measures, PointSet, PowerSpectrum, RadialSpectrum, differential_spectrum, local_spacings, measure, power_spectrum, radial_spectrum,
 };
-use evenly_io::{Subject, Target, write_figure};
+use evenly_io::{Subject, Target, is_mesh_file, write_figure};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -15,11 +15,11 @@ use crate::measuring_args::Analyze;
 use crate::{files, record, session, surface_measures};
 
 pub fn run(args: &Analyze) -> anyhow::Result<u8> {
-    if args.reference.is_some() || args.inputs.iter().any(|path| surface_measures::is_in_space(path)) {
+    if args.reference.is_some() || args.inputs.iter().any(|path| is_mesh_file(path)) {
         return surface_measures::analyze(args);
     }
     if args.certify.is_some() {
-        bail!("--certify is for a mesh, as .ply .obj .off .stl .gltf or .glb");
+        bail!("--certify is for a mesh, as .ply .obj .off .stl .gltf .glb .msh .vtu or .npz");
     }
     let plot = args.plot.as_ref().map(|path| Target::figure(path, args.measured.force)).transpose()?;
     if args.local && args.inputs.len() > 1 {

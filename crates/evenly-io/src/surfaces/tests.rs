@@ -339,3 +339,68 @@ fn every_format_is_written_but_maps() {
     mesh.triangles[3][1] = 8;
     assert!(write_triangles(&mesh, MeshFormat::Obj, "", &target).unwrap_err().to_string().contains("triangle 3"));
 }
+
+#[test]
+fn meshes_of_gmsh_2_have_triangles_and_quadrangles() {
+    let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n7 0 1 0\n9 0.5 0.5 1\n$EndNodes\n\
+                $Elements\n4\n1 15 2 0 1 1\n2 3 2 0 1 1 2 3 7\n3 2 2 0 1 1 2 9\n4 4 2 0 1 1 2 3 9\n$EndElements\n";
+    let read = parse(Kind::Msh, "m.msh", text.as_bytes(), Path::new("")).unwrap();
+    assert_eq!((read.mesh.vertices.len(), read.mesh.triangles.len()), (5, 3));
+    assert!(read.notes.iter().any(|note| note.starts_with("1 elements of three dimensions")), "{:?}", read.notes);
+    for (from, to, expected) in [
+        ("2.2 0", "2.2 1", "it is binary"),
+        ("2.2 0", "3 0", "its version is 3"),
+        ("$Nodes", "$Knots", "no section $Nodes"),
+        ("3 2 2 0 1 1 2 9", "3 2 2 0 1 1 2 8", "element 3 has node 8"),
+        ("4 4 2", "4 99 2", "of kind 99"),
+    ] {
+        let error = parse(Kind::Msh, "m.msh", text.replace(from, to).as_bytes(), Path::new("")).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+/// As other programs write it: in place, in 64 bits and 32, plain and compressed.
+#[test]
+fn vtk_data_in_place_are_read() {
+    use base64::Engine as _;
+    use base64::prelude::BASE64_STANDARD as BASE64;
+    use std::io::Write as _;
+    let plain = |bytes: &[u8]| BASE64.encode([&(bytes.len() as u32).to_le_bytes()[..], bytes].concat());
+    let packed = |bytes: &[u8]| {
+        let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
+        encoder.write_all(bytes).unwrap();
+        let block = encoder.finish().unwrap();
+        let header = [1, bytes.len() as u32, bytes.len() as u32, block.len() as u32].map(u32::to_le_bytes).concat();
+        BASE64.encode(header) + &BASE64.encode(block)
+    };
+    let points: Vec<u8> = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]].iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    let corners: Vec<u8> = [0i64, 1, 2].iter().flat_map(|x| x.to_le_bytes()).collect();
+    let file = |coded: &dyn Fn(&[u8]) -> String, compressor: &str| {
+        let array = |kind: &str, name: &str, bytes: &[u8]| {
+            format!(
+                "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"3\" format=\"binary\">\n{}\n</DataArray>",
+                coded(bytes)
+            )
+        };
+        format!(
+            "<?xml version=\"1.0\"?><VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" {compressor}><UnstructuredGrid><Piece><Points>{}</Points><Cells>{}{}{}</Cells></Piece></UnstructuredGrid></VTKFile>",
+            array("Float32", "Points", &points),
+            array("Int64", "connectivity", &corners),
+            array("Int64", "offsets", &3i64.to_le_bytes()),
+            array("UInt8", "types", &[5])
+        )
+    };
+    for text in [file(&plain, ""), file(&packed, "compressor=\"vtkZLibDataCompressor\"")] {
+        let mesh = parse(Kind::Vtu, "m.vtu", text.as_bytes(), Path::new("")).unwrap().mesh;
+        assert_eq!((mesh.triangles, mesh.vertices[2]), (vec![[0, 1, 2]], [0.0, 1.0, 0.5]));
+    }
+    for (text, expected) in [
+        (file(&plain, "compressor=\"vtkLZ4DataCompressor\""), "compressed by vtkLZ4DataCompressor"),
+        (file(&plain, "").replace("format=\"binary\"", "format=\"appended\""), "with the data in place"),
+        (file(&plain, "").replace("UnstructuredGrid\"", "PolyData\""), "expected UnstructuredGrid"),
+        (file(&plain, "").replace("Float32", "Float16"), "of type \"Float16\""),
+    ] {
+        let error = parse(Kind::Vtu, "m.vtu", text.as_bytes(), Path::new("")).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+}

@@ -25,7 +25,14 @@ proptest! {
 
     #[test]
     fn what_is_written_is_read_back_to_the_last_bit(mesh in any_mesh()) {
-        for (format, kind) in [(MeshFormat::Obj, Kind::Obj), (MeshFormat::Ply, Kind::Ply), (MeshFormat::Off, Kind::Off)] {
+        for (format, kind) in [
+            (MeshFormat::Obj, Kind::Obj),
+            (MeshFormat::Ply, Kind::Ply),
+            (MeshFormat::Off, Kind::Off),
+            (MeshFormat::Msh, Kind::Msh),
+            (MeshFormat::Vtu, Kind::Vtu),
+            (MeshFormat::Npz, Kind::Npz),
+        ] {
             let read = parse(kind, "m", &written(&mesh, format), Path::new("")).unwrap();
             prop_assert_eq!(bits(&read.mesh), bits(&mesh));
             prop_assert_eq!(&read.mesh.triangles, &mesh.triangles);
@@ -48,7 +55,7 @@ proptest! {
 
     #[test]
     fn nothing_makes_a_reader_fall(
-        kind in prop::sample::select(vec![Kind::Obj, Kind::Ply, Kind::Stl, Kind::Off, Kind::Gltf]),
+        kind in prop::sample::select(vec![Kind::Obj, Kind::Ply, Kind::Stl, Kind::Off, Kind::Gltf, Kind::Msh, Kind::Vtu, Kind::Npz]),
         bytes in proptest::collection::vec(any::<u8>(), 0..200),
         words in "(v|f|OFF|ply|solid|vertex|element|property|list|int|end_header|format|ascii|[0-9.eE/\\\\-]{1,4}|[ \n]){0,60}",
         cut in 0.0..1.0f64,
@@ -62,6 +69,9 @@ proptest! {
             Kind::Stl => written(&cube(), MeshFormat::Stl),
             Kind::Off => written(&cube(), MeshFormat::Off),
             Kind::Gltf => gltf(r#","scale":[1,2,3]"#).into_bytes(),
+            Kind::Msh => written(&cube(), MeshFormat::Msh),
+            Kind::Vtu => written(&cube(), MeshFormat::Vtu),
+            Kind::Npz => written(&cube(), MeshFormat::Npz),
         };
         // Some bytes changed, then cut.
         for (k, &byte) in bytes.iter().take(3).enumerate() {
