@@ -56,12 +56,61 @@ def test_densities_are_arrays_functions_and_pictures():
     by_function = evenly.generate(400, method="push-pull", density=lambda x, y: np.exp(3 * x))
     assert by_function.positions[:, 0].mean() > 0.6
     ramp = np.tile(np.linspace(0, 1, 32), (8, 1))
-    by_array = evenly.generate(400, method="lloyd", density=ramp)
+    by_array = evenly.generate(400, method="lloyd", density=ramp, density_rows="upper")
     assert by_array.positions[:, 0].mean() > 0.58
-    assert evenly.measure(by_array, density=ramp).density_error < 0.1
+    assert evenly.measure(by_array, density=ramp, density_rows="lower").density_error < 0.1
     upper = np.zeros((2, 1))
     upper[0] = 1
-    assert (evenly.generate(50, method="white", density=upper).positions[:, 1] >= 0.5).all()
+    assert (evenly.generate(50, method="white", density=upper, density_rows="upper").positions[:, 1] >= 0.5).all()
+    assert (evenly.generate(50, method="white", density=upper, density_rows="lower").positions[:, 1] <= 0.5).all()
+    with pytest.raises(ValueError, match="density_rows='upper'.*density_rows='lower'"):
+        evenly.generate(50, density=upper)
+    with pytest.raises(ValueError, match="density_rows is 'top'"):
+        evenly.generate(50, density=upper, density_rows="top")
+
+
+def test_densities_are_grids_and_estimates_too():
+    x, y = np.linspace(0, 1, 5), np.linspace(1, 0, 4)
+    values = np.tile(x, (4, 1))
+    by_grid = evenly.generate(300, density=(x, y, values))
+    assert by_grid.positions[:, 0].mean() > 0.6
+    below = evenly.generate(300, density=(x, y, np.where(y[:, None] < 0.5, 1.0, 0.01) + 0 * values))
+    assert below.positions[:, 1].mean() < 0.4
+    with pytest.raises(ValueError, match=r"it must be \(len\(y\), len\(x\)\)"):
+        evenly.generate(300, density=(x, y, values.T))
+    stats = pytest.importorskip("scipy.stats")
+    around = np.random.default_rng(1).normal(0.3, 0.05, (2, 200))
+    estimate = stats.gaussian_kde(around)
+    assert np.abs(evenly.generate(200, density=estimate, space="rect").positions.mean(axis=0) - 0.3).max() < 0.05
+
+
+def test_functions_are_sampled_as_finely_as_points_follow_them():
+    shapes = []
+
+    def density(x, y):
+        shapes.append(x.shape)
+        return 1 + x
+
+    evenly.generate(500, method="white", density=density)
+    evenly.generate(500, method="white", density=density, space="rect", size=(4, 1))
+    evenly.generate(100_000, method="white", density=density)
+    assert max(shapes[0]) <= 128 and shapes[1][0] * 4 == pytest.approx(shapes[1][1], abs=4) and max(shapes[2]) == 1024
+
+
+def test_points_outside_of_an_assumed_domain_are_refused():
+    points = [(0.1, 0.2), (3.0, 0.4), (0.5, 0.6)]
+    for call in (evenly.optimize, evenly.measure, evenly.radial_power):
+        with pytest.raises(ValueError, match="which was assumed"):
+            call(points)
+    assert len(evenly.optimize(points, size=(4, 1))) == 3
+
+
+def test_lengths_may_be_in_input_units():
+    points = evenly.generate(1000, size=(640, 480), min_distance="15u")
+    measures = points.measure()
+    assert measures.min_distance * measures.hex_spacing >= 15 - 1e-4
+    with pytest.raises(ValueError, match="where spacings vary"):
+        evenly.generate(100, min_distance="0.05u", density=lambda x, y: 1 + x)
 
 
 def test_seeds_are_numbers_sequences_and_generators():
@@ -144,8 +193,8 @@ def test_targets_that_are_missed_are_told():
         ("size and origin are for", {"n": 10, "space": evenly.Torus(), "size": (1, 2)}),
         ("fixed must be finite: row 1", {"n": 10, "fixed": [[0, 0], [np.inf, 0]]}),
         ("iterations is 0", {"n": 10, "method": "lloyd", "iterations": 0}),
-        ("goes by no density", {"n": 10, "start": "jittered", "density": [[1.0, 2.0]]}),
-        ("must be finite, and 0 or more: row 0", {"n": 10, "method": "lloyd", "density": [[-1.0, 2.0]]}),
+        ("goes by no density", {"n": 10, "start": "jittered", "density": [[1.0, 2.0]], "density_rows": "upper"}),
+        ("must be finite, and 0 or more: row 0", {"n": 10, "method": "lloyd", "density": [[-1.0, 2.0]], "density_rows": "upper"}),
     ],
 )
 def test_bad_wishes_are_value_errors(message, arguments):
@@ -156,7 +205,7 @@ def test_bad_wishes_are_value_errors(message, arguments):
 @pytest.mark.parametrize("method", ["dart", "jittered", "hexagonal", "opt-beta", "cvt", "farthest-point"])
 def test_methods_that_know_no_density_refuse_it(method):
     with pytest.raises(ValueError, match="density is for method"):
-        evenly.generate(100, method=method, density=[[1.0, 2.0]])
+        evenly.generate(100, method=method, density=[[1.0, 2.0]], density_rows="upper")
 
 
 @pytest.mark.parametrize(
@@ -194,7 +243,7 @@ def test_falsy_answers_of_callbacks_go_on():
 
 def test_points_bring_their_space_and_density_along():
     points = evenly.generate(300, method="push-pull", space="rect", size=(2, 1), density=lambda x, y: 0.2 + x)
-    assert points.measure() == evenly.measure(points, density=points.density) and points.measure().beta < 1
+    assert points.measure() == evenly.measure(points, density=points.density, density_rows="upper") and points.measure().beta < 1
     assert evenly.optimize(points, method="lloyd").positions[:, 0].mean() > 1.15
     assert evenly.generate(310, space=None, fixed=points).space == points.space
 

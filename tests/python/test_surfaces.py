@@ -116,3 +116,22 @@ def test_bad_surfaces_are_value_errors(message, shape, arguments):
 def test_what_is_no_mesh_is_a_type_error():
     with pytest.raises(TypeError, match="mesh"):
         evenly.sample(7, 100)
+
+
+def test_meshes_go_to_other_packages():
+    points = evenly.generate(10, method="white")
+    square = evenly.mesh([(0, 0), (1, 0), (1, 1), (0, 1)], edge_length=0.3)
+    vertices = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    triangles = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (1, 0, 5), (2, 1, 5), (3, 2, 5), (0, 3, 5)]
+    surface = evenly.remesh((vertices, triangles), 100)
+    for package, convert in [
+        ("trimesh", lambda: surface.to_trimesh().faces),
+        ("meshio", lambda: surface.to_meshio().cells_dict["triangle"]),
+        ("meshio", lambda: square.to_meshio().cells_dict["triangle"]),
+        ("geopandas", lambda: square.to_geodataframe()),
+        ("geopandas", lambda: points.to_geodataframe()),
+    ]:
+        try:
+            assert len(convert()) > 0
+        except ModuleNotFoundError as missing:
+            assert package in str(missing) or "shapely" in str(missing)

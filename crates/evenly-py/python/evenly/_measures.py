@@ -10,7 +10,7 @@ import numpy as np
 
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
-from evenly._densities import Density, density_of
+from evenly._densities import Density, Raster, Rows, density_of
 from evenly._jobs import run, threads_of
 from evenly._spaces import Metric, Pair, Space, native, space_of
 
@@ -154,6 +154,7 @@ def measure(
     origin: Pair | None = None,
     metric: Metric | None = None,
     density: Density = None,
+    density_rows: Rows | None = None,
     threads: int | None = None,
 ) -> Measures:
     """Measure a set of points.
@@ -168,7 +169,7 @@ def measure(
         Of a torus or rectangle; (1, 1) and (0, 0) by default.
     metric : {'input', 'unit'}, optional
         In which units distances are measured; see `generate`.
-    density : optional
+    density, density_rows : optional
         In which to measure; see `generate`.
     threads : int, optional
         All by default; the result does not depend on it.
@@ -193,9 +194,11 @@ def measure(
     >>> measures.beta <= 0.7, measures.obtuse_fraction
     (True, 0.0)
     """
-    where = _space(points, space, size, origin)
-    wanted = density_of(points.density if density is None and isinstance(points, _KnowsSpace) else density, where)
-    return run(lambda: _evenly.measure(rows(points), native(where, metric or _metric(points)), wanted, threads_of(threads)), _measures)
+    positions = rows(points)
+    where = _space(points, space, size, origin, positions)
+    own = points.density if density is None and isinstance(points, _KnowsSpace) else None
+    wanted = density_of(Raster(own) if isinstance(own, np.ndarray) else density if own is None else own, where, density_rows, len(positions))
+    return run(lambda: _evenly.measure(positions, native(where, metric or _metric(points)), wanted, threads_of(threads)), _measures)
 
 
 def power_spectrum(
@@ -334,8 +337,9 @@ def pair_correlation(
     return run(lambda: _evenly.radial_spectrum(sets, native(where, metric), threads_of(threads)), build)
 
 
-def _space(points: object, space: object, size: Pair | None, origin: Pair | None) -> Space:
-    return space_of(space, size, origin, points.space if isinstance(points, _KnowsSpace) else None)
+def _space(points: object, space: object, size: Pair | None, origin: Pair | None, positions: Floats | None = None) -> Space:
+    own = points.space if isinstance(points, _KnowsSpace) else None
+    return space_of(space, size, origin, own, rows(points) if own is None and positions is None else positions)
 
 
 def _metric(points: object) -> Metric:
@@ -348,7 +352,8 @@ def _sets(points: Any, space: object, size: Pair | None, origin: Pair | None) ->
     spaces = {(each.space, each.metric) for each in sets if isinstance(each, _KnowsSpace)}
     if space is None and len(spaces) > 1:
         raise ValueError("the sets have different spaces")
-    return [rows(each) for each in sets], _space(sets[0], space, size, origin), _metric(sets[0])
+    positions = [rows(each) for each in sets]
+    return positions, _space(sets[0], space, size, origin, positions[0]), _metric(sets[0])
 
 
 def _measures(text: str) -> Measures:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, frozen, rows
-from evenly._densities import Density, density_of
+from evenly._densities import Density, Rows, density_of
 from evenly._jobs import Callback, named, perform, run
 from evenly._methods import OnMeshes, OptimizerOptions, parameters_of, refuse_renamed
 from evenly._seeds import Seed, number
@@ -112,6 +112,21 @@ class Mesh(Frozen):
         names = ("vertices", "triangles", "edges", "region_names", "n_in_corners")
         return {name: getattr(self, name) for name in names} | lists
 
+    def to_meshio(self) -> Any:
+        """Return the mesh as meshio has it, which must be installed: triangles, and the edges that had to be with their tags."""
+        import meshio
+
+        cells = [("triangle", self.triangles), ("line", self.edges)]
+        tags = [np.zeros(len(self.triangles), dtype=np.int64), self.tags]
+        return meshio.Mesh(self.vertices, cells, cell_data={"tag": tags})
+
+    def to_geodataframe(self, crs: Any = None) -> Any:
+        """Return the triangles as a GeoDataFrame of geopandas, which must be installed."""
+        import geopandas
+        import shapely
+
+        return geopandas.GeoDataFrame(geometry=shapely.polygons(self.vertices[self.triangles]), crs=crs)
+
     def svg(self) -> str:
         """Draw the mesh: obtuse triangles light red, thin ones red."""
         return _evenly.mesh_figure(self._parts())
@@ -135,6 +150,7 @@ def mesh(
     max_edge_length: float | None = None,
     sizes: "ArrayLike | object | None" = None,
     density: Density = None,
+    density_rows: Rows | None = None,
     min_angle: float | None = None,
     no_obtuse: bool = False,
     fixed: "ArrayLike | object | None" = None,
@@ -166,7 +182,7 @@ def mesh(
         The longest edges wanted, where they grow.
     sizes : array_like of shape (k, 3), optional
         Wanted lengths of edges at points, as x, y and length, where they are to be shorter than `edge_length`; they grow from there by `grade`, or 0.25, per unit of distance.
-    density : optional
+    density, density_rows : optional
         How many vertices are wanted where, in the polygon's frame; see `generate`.
     min_angle : float, optional
         No angle shall be smaller, in degrees, but in sharper corners of the polygon; 25 by default.
@@ -213,7 +229,7 @@ def mesh(
     lengths = None if sizes is None else rows(sizes, "sizes", 3, may_be_empty=True)
     if density is not None and shape is None:
         raise ValueError("density spans the polygon's frame; give the polygon too")
-    wanted = None if shape is None else density_of(density, shape)
+    wanted = None if shape is None else density_of(density, shape, density_rows)
     outer = None if shape is None else [list(ring) for ring in shape.rings]
     repairs = () if shape is None else shape.repairs
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from evenly import _evenly
 from evenly._arrays import Floats, Frozen, converted, frozen, rows
-from evenly._densities import Density, density_of
+from evenly._densities import Density, Raster, Rows, density_of
 from evenly._jobs import Callback, named, perform, run
 from evenly._measures import Measures, measure
 from evenly._methods import MethodOptions, Optimizer, OptimizerOptions, Start, parameters_of
@@ -70,6 +70,12 @@ class Points(Frozen):
         """Measure the points, in the density that they follow; see `evenly.measure`."""
         return measure(self)
 
+    def to_geodataframe(self, crs: Any = None) -> Any:
+        """Return the points as a GeoDataFrame of geopandas, which must be installed."""
+        import geopandas
+
+        return geopandas.GeoDataFrame(geometry=geopandas.points_from_xy(self.positions[:, 0], self.positions[:, 1]), crs=crs)
+
     def svg(self, *draw: str) -> str:
         """Draw the points, or what else the command line's ``--draw`` knows, as SVG."""
         shown = list(draw) or ["points"]
@@ -97,6 +103,7 @@ def generate(
     origin: Pair | None = None,
     metric: Metric | None = None,
     density: Density = None,
+    density_rows: Rows | None = None,
     fixed: "ArrayLike | object | None" = None,
     warp: bool = True,
     threads: int | None = None,
@@ -124,9 +131,11 @@ def generate(
     metric : {'input', 'unit'}, optional
         In which units distances are measured: those of the input, or, with 'unit', parts of the domain's width and of its height. The latter is
         for axes of different kinds, as the factors of an experiment; points come back in their own units, and measures are those of the unit square.
-    density : array_like of shape (height, width), callable or path, optional
-        How many points are wanted where, in proportion: pixels that span the domain, rows from the top; a function of arrays x and y; or a picture,
-        ``photo.png`` or ``photo.png:invert,gamma=2``.
+    density : array_like of shape (height, width), callable, (x, y, values), kernel density estimate or path, optional
+        How many points are wanted where, in proportion: pixels that span the domain, see `density_rows`; a function of arrays x and y; values of shape
+        (len(y), len(x)) on a grid; a ``gaussian_kde`` of scipy or a ``KernelDensity`` of scikit-learn; or a picture, ``photo.png`` or ``photo.png:invert,gamma=2``.
+    density_rows : {'upper', 'lower'}
+        Which row of a density that is an array comes first: the upper one, as pictures have it, or the lower one, as y grows. There is no default.
     fixed : array_like of shape (k, 2), optional
         Points that stay where they are; they are among the n, and come first.
     warp : bool
@@ -164,7 +173,7 @@ def generate(
     units = metric or (fixed.metric if isinstance(fixed, Points) else "input")
     chance = number(seed)
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
-    wanted = density_of(density, where)
+    wanted = density_of(density, where, density_rows, n)
     return perform(
         "generate",
         {
@@ -193,6 +202,7 @@ def optimize(
     origin: Pair | None = None,
     metric: Metric | None = None,
     density: Density = None,
+    density_rows: Rows | None = None,
     fixed: "ArrayLike | object | None" = None,
     warp: bool = True,
     threads: int | None = None,
@@ -209,7 +219,7 @@ def optimize(
         An optimiser, see `generate`.
     fixed : array_like of shape (k, 2), optional
         Points that stay where they are. They come first in the result; points at their places are left out.
-    seed, space, size, origin, metric, density, warp, threads, callback, **options
+    seed, space, size, origin, metric, density, density_rows, warp, threads, callback, **options
         As in `generate`.
 
     Returns
@@ -237,7 +247,7 @@ def optimize(
     units = metric or (points.metric if isinstance(points, Points) else "input")
     chance = number(seed)
     held = rows(() if fixed is None else fixed, "fixed", may_be_empty=True)
-    wanted = density_of(points.density if density is None and isinstance(points, Points) else density, where)
+    wanted = density_of(_own_density(points) if density is None else density, where, density_rows, len(positions))
     return perform(
         "optimize",
         {"method": method, "seed": chance, "no_warp": _is_unwarped(warp), "metric": metric_of(units)},
@@ -247,6 +257,11 @@ def optimize(
         threads,
         callback,
     )
+
+
+def _own_density(points: object) -> object:
+    own = points.density if isinstance(points, Points) else None
+    return Raster(own) if isinstance(own, np.ndarray) else own
 
 
 def _is_unwarped(warp: object) -> bool:

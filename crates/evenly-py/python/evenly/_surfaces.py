@@ -183,6 +183,18 @@ class SurfaceMesh(Frozen):
         attributes = [(name, values.tolist()) for name, values in self.attributes.items()]
         _evenly.write_surface(os.fspath(path), places, self.triangles, attributes)
 
+    def to_trimesh(self) -> Any:
+        """Return the mesh as trimesh has it, which must be installed; vertices stay as they are."""
+        import trimesh
+
+        return trimesh.Trimesh(self.vertices, self.triangles, process=False)
+
+    def to_meshio(self) -> Any:
+        """Return the mesh as meshio has it, which must be installed, with the attributes of its vertices."""
+        import meshio
+
+        return meshio.Mesh(self.vertices, [("triangle", self.triangles)], point_data=dict(self.attributes))
+
     def svg(self) -> str:
         """Draw the mesh, shaded: obtuse triangles light red, thin ones red."""
         return _evenly.surface_figure(self.vertices, self.triangles)
