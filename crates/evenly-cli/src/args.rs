@@ -19,9 +19,9 @@ use crate::stipple_args::Stipple;
 
 const EXAMPLES: &str = "\
 Examples:
-  evenly generate -n 10000 --method procrustes -o points.svg
+  evenly generate -n 10000 -o points.svg
   evenly generate -n 10000 --seed 7 -o points.txt --report run.json
-  evenly generate -n 10000 --method push-pull --min-distance 0.85 --coverage-radius 0.67 -o points.csv
+  evenly generate -n 10000 --min-distance 0.85 --coverage-radius 0.67 -o points.csv
   evenly optimize points.csv --size 640,480 -o better.csv
   evenly analyze better.csv --size 640,480 --json
   evenly stipple photo.jpg -n 20000 -o drawing.svg
@@ -79,7 +79,7 @@ pub enum Command {
 }
 
 #[derive(Args)]
-#[command(after_help = "Example:\n  evenly generate -n 10000 --method procrustes -o points.svg --draw valence,points")]
+#[command(after_help = "Example:\n  evenly generate -n 10000 -o points.svg --draw valence,points")]
 pub struct Generate {
     /// How many points, exactly: up to 40 million; of poisson-disk about
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]

@@ -211,7 +211,9 @@ fn share(drawn: &[DotLayer], pen_px: f64) -> f64 {
 fn sold(mm: f64) -> f64 {
     let away = |pen: f64| if pen > mm { pen / mm } else { mm / pen };
     let nearest = PENS_MM.into_iter().min_by(|&a, &b| away(a).total_cmp(&away(b)));
-    nearest.filter(|&pen| away(pen) < SAME).unwrap_or(mm)
+    // To a hundredth of a millimetre, where that is fine enough.
+    let exact = if mm > 0.05 { (100.0 * mm).floor() / 100.0 } else { mm };
+    nearest.filter(|&pen| away(pen) < SAME).unwrap_or(exact)
 }
 
 /// Says that dots are much paler than the picture, or darker, and what would do.
