@@ -22,7 +22,7 @@ use crate::points::Ending;
 use crate::resource::{Data as _, Lengths, Lines, Pixels, Positions, Regions, Resource, Resources, Rings, called};
 
 /// Triangles in a polygon. Its size is an `edge_length` or a number of triangles.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct MeshRequest {
@@ -60,29 +60,6 @@ pub struct MeshRequest {
     pub fixed: Option<Resource<Positions>>,
     /// Lines that become edges.
     pub lines: Option<Resource<Lines>>,
-}
-
-impl Default for MeshRequest {
-    fn default() -> Self {
-        Self {
-            polygon: None,
-            regions: None,
-            edge_length: None,
-            n_triangles: None,
-            simplify: None,
-            seed: 0,
-            method: Method::default(),
-            parameters: Settings::default(),
-            grade: None,
-            max_edge_length: None,
-            sizes: None,
-            density: None,
-            min_angle: None,
-            no_obtuse: false,
-            fixed: None,
-            lines: None,
-        }
-    }
 }
 
 /// A mesh, and how it came about.

@@ -17,7 +17,7 @@ use crate::resource::{Pixels, Positions, Resource, Resources, called};
 use crate::space::{Domain, Metric, Place};
 
 /// Points from nothing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct GenerateRequest {
@@ -44,23 +44,6 @@ pub struct GenerateRequest {
     pub density: Option<Resource<Pixels>>,
     /// Points that stay where they are; they are among the `n_points`, and come first.
     pub fixed: Option<Resource<Positions>>,
-}
-
-impl Default for GenerateRequest {
-    fn default() -> Self {
-        Self {
-            n_points: None,
-            method: Method::default(),
-            parameters: Settings::default(),
-            start: None,
-            no_warp: false,
-            seed: 0,
-            space: Domain::default(),
-            metric: Metric::Input,
-            density: None,
-            fixed: None,
-        }
-    }
 }
 
 /// Better points from points.
