@@ -265,3 +265,10 @@ def test_designs_in_units_of_their_own(tmp_path):
     assert evenly.measure(ours).min_distance == pytest.approx(evenly.measure(ours.positions / [160, 4], space="rect").min_distance)
     with pytest.raises(ValueError, match="metric is 'miles'"):
         evenly.generate(30, metric="miles")
+
+
+def test_callbacks_see_where_the_points_are():
+    seen = []
+    points = evenly.generate(200, method="lloyd", callback=lambda _, progress: seen.append(progress.positions))
+    assert len(seen) == points.iterations and all(each.shape == (200, 2) for each in seen)
+    np.testing.assert_allclose(seen[-1], points.positions, atol=1e-9)

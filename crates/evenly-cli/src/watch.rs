@@ -66,6 +66,7 @@ impl Watch {
                 }
                 self.told.push(note);
             }
+            Event::Positions(_) => {}
             Event::Run { label, n_runs } => {
                 self.bar.set_length(n_runs as u64);
                 self.bar.set_message(label.to_owned());

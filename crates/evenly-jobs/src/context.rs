@@ -26,6 +26,8 @@ pub enum Stage {
 pub enum Event<'a> {
     /// Something else begins.
     Stage(Stage),
+    /// Where the points are after an iteration, of methods on points in the plane; its progress comes next.
+    Positions(Vec<[f64; 2]>),
     /// How far a method has come.
     Progress(Progress),
     /// What should be known at once; the outcome has it too.
@@ -44,6 +46,7 @@ pub enum Event<'a> {
 pub struct Context<'a> {
     watch: Option<Watch<'a>>,
     cancel: CancelToken,
+    has_positions: bool,
 }
 
 type Watch<'a> = Box<dyn FnMut(Event) + 'a>;
@@ -58,6 +61,12 @@ impl<'a> Context<'a> {
     #[must_use]
     pub fn with_cancel(self, cancel: CancelToken) -> Self {
         Self { cancel, ..self }
+    }
+
+    /// Tells of positions too.
+    #[must_use]
+    pub fn with_positions(self) -> Self {
+        Self { has_positions: true, ..self }
     }
 
     /// Whether somebody has asked the job to end.
@@ -89,10 +98,12 @@ impl<'a> Context<'a> {
     /// Lets a method run, which tells of its progress.
     pub(crate) fn run<T>(&mut self, method: impl FnOnce(&mut RunContext) -> T) -> T {
         self.enter(Stage::Optimize);
-        let cancel = self.cancel.clone();
+        let (cancel, has_positions) = (self.cancel.clone(), self.has_positions);
         let shared = RefCell::new(self);
         let on_progress = |progress| shared.borrow_mut().tell(Event::Progress(progress));
         let on_warning = |warning: &str| shared.borrow_mut().tell(Event::Note(&warning.to_owned().into()));
-        method(&mut RunContext::default().with_cancel(cancel).on_progress(on_progress).on_warning(on_warning))
+        let on_positions = |positions| shared.borrow_mut().tell(Event::Positions(positions));
+        let run = RunContext::default().with_cancel(cancel).on_progress(on_progress).on_warning(on_warning);
+        method(&mut if has_positions { run.on_positions(on_positions) } else { run })
     }
 }

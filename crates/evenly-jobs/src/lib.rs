@@ -28,6 +28,7 @@ mod sample;
 #[cfg(test)]
 mod schema;
 mod space;
+mod steps;
 mod stipple;
 mod surface;
 
@@ -43,5 +44,6 @@ pub use request::{Outcome, Request};
 pub use resource::{Colours, Data, Lengths, Lines, Nothing, Pixels, Places, Positions, Regions, Resource, Resources, Rings, Triangles};
 pub use sample::{SampleOutcome, SampleRequest};
 pub use space::{Domain, Metric};
+pub use steps::{Step, Steps};
 pub use stipple::{DotLayer, DotSizes, DrawOrder, InkTone, Layers, StippleOutcome, StippleRequest, ToneReport, Wanted};
 pub use surface::{OrOff, Sizing, is_resource, place_attributes, surface_of};

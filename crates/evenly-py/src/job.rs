@@ -11,6 +11,7 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::answer::{Answer, Keywords};
+use crate::arrays::array;
 
 create_exception!(_evenly, Stopped, PyKeyboardInterrupt, "A job was interrupted; the argument is a `Pending`.");
 
@@ -98,10 +99,15 @@ pub fn run(
         pool.install(|| {
             let mut raised = None;
             let done = {
+                let mut positions = Vec::new();
                 let watch = |event: Event| {
-                    let Event::Progress(progress) = event else { return };
+                    let progress = match event {
+                        Event::Positions(now) => return positions = now,
+                        Event::Progress(progress) => progress,
+                        _ => return,
+                    };
                     if let Some(callback) = callback.as_ref().filter(|_| progress.phase == Phase::Optimize && progress.iteration > 0) {
-                        match goes_on(callback, progress) {
+                        match goes_on(callback, progress, std::mem::take(&mut positions)) {
                             Ok(true) => {}
                             Ok(false) => token.cancel(),
                             Err(error) => {
@@ -111,7 +117,8 @@ pub fn run(
                         }
                     }
                 };
-                work(&mut Context::watched(watch).with_cancel(token.clone()))
+                let context = Context::watched(watch).with_cancel(token.clone());
+                work(&mut if callback.is_some() { context.with_positions() } else { context })
             };
             match raised {
                 Some(error) => Err(Failure::Raised(error)),
@@ -146,10 +153,11 @@ pub fn run(
 }
 
 /// Asks a callback whether to go on.
-fn goes_on(callback: &Py<PyAny>, progress: Progress) -> PyResult<bool> {
+fn goes_on(callback: &Py<PyAny>, progress: Progress, positions: Vec<[f64; 2]>) -> PyResult<bool> {
     Python::attach(|py| {
         let Progress { iteration, energy, stable_share, fraction, .. } = progress;
-        let answer = callback.call1(py, (iteration, energy, stable_share, fraction))?;
+        let positions = if positions.is_empty() { None } else { Some(array(py, positions)?) };
+        let answer = callback.call1(py, (iteration, energy, stable_share, fraction, positions))?;
         // False alone is a refusal, numpy's too; functions that say nothing return None.
         Ok(answer.extract::<bool>(py).unwrap_or(true))
     })

@@ -50,6 +50,8 @@ impl CancelToken {
 
 /// What is called with a warning.
 type Warn<'a> = Box<dyn FnMut(&str) + 'a>;
+/// What is called with positions.
+type Show<'a> = Box<dyn FnMut(Vec<[f64; 2]>) + 'a>;
 
 /// Progress and cancel for one run. `RunContext::default()` is silent and cannot be cancelled.
 ///
@@ -58,6 +60,7 @@ type Warn<'a> = Box<dyn FnMut(&str) + 'a>;
 pub struct RunContext<'a> {
     progress: Option<Box<dyn FnMut(Progress) + 'a>>,
     warning: Option<Warn<'a>>,
+    positions: Option<Show<'a>>,
     cancel: CancelToken,
 }
 
@@ -76,6 +79,13 @@ impl<'a> RunContext<'a> {
         self
     }
 
+    /// Calls `positions` with where the points are after each iteration, in input units and in their order, before its progress is told: of methods on points in the plane.
+    #[must_use]
+    pub fn on_positions(mut self, positions: impl FnMut(Vec<[f64; 2]>) + 'a) -> Self {
+        self.positions = Some(Box::new(positions));
+        self
+    }
+
     /// Stops when `cancel` is raised.
     #[must_use]
     pub fn with_cancel(mut self, cancel: CancelToken) -> Self {
@@ -86,6 +96,13 @@ impl<'a> RunContext<'a> {
     pub(crate) fn report(&mut self, progress: Progress) {
         if let Some(call) = &mut self.progress {
             call(progress);
+        }
+    }
+
+    /// Shows where points are, if anybody looks.
+    pub(crate) fn show(&mut self, positions: impl FnOnce() -> Vec<[f64; 2]>) {
+        if let Some(call) = &mut self.positions {
+            call(positions());
         }
     }
 

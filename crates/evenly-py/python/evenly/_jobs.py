@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenly import _evenly
 
@@ -47,6 +48,8 @@ class Progress(NamedTuple):
     """Of methods that sweep, the share of points at which the last pass found nothing to do."""
     fraction: float
     """How far the run has come, from 0 to 1, estimated."""
+    positions: NDArray[np.float64] | None = None
+    """Of shape (n, 2): where the points are, of `generate` and `optimize`; with ``metric="unit"`` in the unit square."""
 
 
 Callback: TypeAlias = Callable[[int, Progress], bool | None]
@@ -91,11 +94,13 @@ def run(call: Callable[[], Answer], build: Callable[[Answer], Result]) -> Result
     return build(answer)
 
 
-def told(callback: Callback | None) -> Callable[[int, float | None, float | None, float], bool | None] | None:
+def told(callback: Callback | None) -> Callable[[int, float | None, float | None, float, Any], bool | None] | None:
     """Return the callback as the native half calls it."""
     if callback is None:
         return None
-    return lambda iteration, energy, stable_share, fraction: callback(iteration, Progress(energy, stable_share, fraction))
+    return lambda iteration, energy, stable_share, fraction, positions: callback(
+        iteration, Progress(energy, stable_share, fraction, positions)
+    )
 
 
 def threads_of(threads: object) -> int | None:

@@ -134,6 +134,7 @@ pub fn cvt(points: &mut PointSet, params: &CvtParams, run: &mut RunContext) -> R
         report.iterations += 1;
         report.energy.push(state.energy);
         let (iteration, fraction) = (report.iterations, report.iterations as f64 / params.iterations as f64);
+        run.show(|| mesh.shown());
         run.report(Progress { phase: Phase::Optimize, iteration, energy: Some(state.energy), stable_share: None, fraction });
     };
     points.place(&domain, &mesh.into_order(), &state.places);

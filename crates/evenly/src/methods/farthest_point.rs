@@ -171,6 +171,7 @@ pub fn farthest_point(points: &mut PointSet, params: &FarthestPointParams, run: 
         report.iterations += 1;
         report.visits += n_points as usize;
         let fraction = report.iterations as f64 / params.iterations as f64;
+        run.show(|| gaps.mesh.shown());
         run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share: None, fraction });
         if farthest <= STILL * spacing && params.min_distance.is_none() {
             break Outcome::Converged;

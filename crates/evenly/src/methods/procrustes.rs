@@ -237,6 +237,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
         report.energy_rises += usize::from(energy > before + ROUNDING * (1.0 + before) && !is_settling);
         decay.step(before - energy);
         let fraction = decay.fraction.max(report.iterations as f64 / params.max_iterations as f64);
+        run.show(|| mesh.shown(&domain));
         run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: Some(energy), stable_share: None, fraction });
         if decay.has_settled() && rim.has_settled(report.iterations) {
             report.outcome = Outcome::Converged;

@@ -126,6 +126,15 @@ impl Domain {
     }
 
     /// A length in input units.
+    /// Places in input units, each at its index.
+    pub fn restored(&self, order: &[u32], places: &[DVec2]) -> Vec<[f64; 2]> {
+        let mut restored = vec![[0.0; 2]; order.len()];
+        for (&index, &place) in order.iter().zip(places) {
+            restored[index as usize] = self.restore(place);
+        }
+        restored
+    }
+
     pub fn restore_length(&self, length: f64) -> f64 {
         length / self.scale
     }

@@ -280,6 +280,7 @@ impl<G: Ground> Sweep<G> {
         let n_unstable = n_points * (1.0 - stable_share.unwrap_or(0.0));
         let of_passes = report.iterations as f64 / plan.total_passes as f64;
         self.fraction = self.fraction.max(1.0 - libm::log(1.0 + n_unstable) / libm::log(1.0 + n_points)).max(of_passes);
+        run.show(|| self.mesh.shown());
         run.report(Progress { phase: Phase::Optimize, iteration: report.iterations, energy: None, stable_share, fraction: self.fraction });
     }
 }

@@ -124,6 +124,10 @@ pub(crate) trait Ground: Sync + Sized {
     /// Sorts points by rows so many spacings high, and along them.
     fn sort_by_rows(&self, points: &mut [u32], height: f64);
 
+    /// Where the caller's points are, in input units; none where vertices are no such points.
+    fn shown(&self) -> Vec<[f64; 2]> {
+        Vec::new()
+    }
     fn state(&self) -> Self::State;
     fn restore(&mut self, state: Self::State) -> Result<(), Error>;
 }
@@ -239,6 +243,10 @@ impl Ground for LiveMesh {
 
     fn sort_by_rows(&self, points: &mut [u32], height: f64) {
         self.sort_by_rows(points, height);
+    }
+
+    fn shown(&self) -> Vec<[f64; 2]> {
+        self.shown()
     }
 
     fn state(&self) -> Vec<DVec2> {

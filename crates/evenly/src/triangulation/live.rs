@@ -359,6 +359,11 @@ impl LiveMesh {
         (0..self.order.len() as u32).into_par_iter().map(|v| home(self.mesh.position(v))).collect()
     }
 
+    /// Where the points are, in input units and the caller's order; none of a mesh whose vertices are its own.
+    pub fn shown(&self) -> Vec<[f64; 2]> {
+        if self.held.is_some() { Vec::new() } else { self.base.restored(&self.order, &self.points()) }
+    }
+
     /// The caller's index of each point.
     pub fn into_order(self) -> Vec<u32> {
         self.order

@@ -276,14 +276,19 @@ impl Mesh {
 
     /// The caller's index and the position of each base vertex.
     pub fn into_positions(self, base_domain: &Domain) -> (Vec<u32>, Vec<DVec2>) {
-        let Triangulation { mut positions, order, copies, .. } = self.triangulation;
-        positions.truncate(order.len());
-        if copies != [1, 1] {
-            for p in &mut positions {
-                *p = base_domain.land(*p - (*p / base_domain.size).floor() * base_domain.size);
-            }
-        }
-        (order, positions)
+        let positions = self.positions(base_domain);
+        (self.triangulation.order, positions)
+    }
+
+    /// Where the points are, in input units and the caller's order.
+    pub fn shown(&self, base_domain: &Domain) -> Vec<[f64; 2]> {
+        base_domain.restored(&self.triangulation.order, &self.positions(base_domain))
+    }
+
+    fn positions(&self, base_domain: &Domain) -> Vec<DVec2> {
+        let Triangulation { positions, order, copies, .. } = &self.triangulation;
+        let home = |p: DVec2| if *copies == [1, 1] { p } else { base_domain.land(p - (p / base_domain.size).floor() * base_domain.size) };
+        positions[..order.len()].iter().map(|&p| home(p)).collect()
     }
 }
 
