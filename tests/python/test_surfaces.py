@@ -42,8 +42,8 @@ def test_a_surface_is_remeshed_exactly_and_not_obtuse(tmp_path):
         mesh.save(tmp_path / name)
         assert (tmp_path / name).stat().st_size > 1000
     # A file is read again, with what its vertices carry.
-    anew = evenly.remesh(tmp_path / "mesh.ply", 300)
-    assert len(anew.vertices) == 300 and {"nx", "ny", "nz"} <= set(anew.attributes)
+    again = evenly.remesh(tmp_path / "mesh.ply", 300)
+    assert len(again.vertices) == 300 and {"nx", "ny", "nz"} <= set(again.attributes)
     # What other packages have.
     assert len(evenly.remesh(mesh, 300).vertices) == 300
 

@@ -67,7 +67,7 @@ pub enum Command {
     Bilateral(Bilateral),
     /// List the methods, and what each can be told
     Methods(Methods),
-    /// Compute a paper's tables and figures anew, beside the printed numbers
+    /// Recompute a paper's tables and figures, beside the printed numbers
     Reproduce(Reproduce),
     /// Print a completion script for a shell
     Completions {

@@ -1,4 +1,4 @@
-//! The papers' tables and figures, computed anew.
+//! The papers' tables and figures, recomputed.
 
 mod filtering;
 mod html;

@@ -77,7 +77,7 @@ fn the_schema_in_the_docs_is_that_of_the_types() {
     if std::env::var_os("EVENLY_WRITE_SCHEMA").is_some() {
         std::fs::write(FILE, &schema).unwrap();
     }
-    assert!(std::fs::read_to_string(FILE).unwrap() == schema, "docs/request.schema.json: EVENLY_WRITE_SCHEMA=1 writes it anew");
+    assert!(std::fs::read_to_string(FILE).unwrap() == schema, "docs/request.schema.json: EVENLY_WRITE_SCHEMA=1 writes it");
 }
 
 /// One request of each kind, with nothing left at its default.

@@ -167,7 +167,7 @@ pub struct Report {
     /// What the method brings down, before the first iteration and after each: of Procrustes its energy, as a fraction of the domain's area, of cvt the energy
     /// relative to the hexagonal lattice's, of opt-beta beta; of other methods nothing.
     pub energy: Vec<f64>,
-    /// Of Procrustes: how often its energy rose from one iteration to the next, by more than rounding; steps in which a rectangle's triangulation is built anew do not count.
+    /// Of Procrustes: how often its energy rose from one iteration to the next, by more than rounding; steps in which a rectangle's triangulation is rebuilt do not count.
     pub energy_rises: usize,
     /// Edges flipped; of methods that sweep, and of Procrustes.
     pub flips: usize,
@@ -179,7 +179,7 @@ pub struct Report {
     pub coincident_points: usize,
     /// Whether all points lay on one line, or in a polygon near one, and were spread first.
     pub was_collinear: bool,
-    /// How often the triangulation was built anew.
+    /// How often the triangulation was rebuilt.
     pub triangulations: usize,
     /// What the user should know, in plain words.
     pub notes: Vec<String>,

@@ -1,4 +1,4 @@
-//! `evenly reproduce`: a paper's tables and figures, computed anew beside the printed numbers.
+//! `evenly reproduce`: a paper's tables and figures, recomputed beside the printed numbers.
 
 use anyhow::Context as _;
 use evenly::CancelToken;
@@ -22,7 +22,7 @@ pub fn run(args: &Reproduce) -> anyhow::Result<u8> {
     if args.run.force {
         scraps.clear()?;
     } else if scraps.exist() && !args.run.quiet {
-        say(format_args!("going on where an earlier run was interrupted; --force begins anew"));
+        say(format_args!("going on where an earlier run was interrupted; --force starts again"));
     }
     let cancel = CancelToken::default();
     interrupt::cancels(&cancel, args.run.quiet);

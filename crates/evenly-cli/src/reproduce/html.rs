@@ -12,7 +12,7 @@ pub fn html(study: &Study, done: &[Done], is_quick: bool) -> String {
     let n_missing = study.parts.len() - done.len();
     let _ = write!(
         body,
-        "Every table and figure that concerns flat domains, computed anew; printed numbers stand in italics below ours. Lengths are in \
+        "Every table and figure that concerns flat domains, recomputed; printed numbers stand in italics below ours. Lengths are in \
          hexagonal spacings unless something else is said. Made by <code>{}</code>, evenly {}{}.",
         escaped(&record::command()),
         record::VERSION,

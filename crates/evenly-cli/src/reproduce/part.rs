@@ -3,7 +3,7 @@
 use evenly_io::{Axis, Curve, chart};
 use serde::{Deserialize, Serialize};
 
-/// A figure or a table of a paper, computed anew.
+/// A figure or a table of a paper, recomputed.
 #[derive(Serialize, Deserialize)]
 pub struct Part {
     /// What the paper shows, and how it was done here.

@@ -63,7 +63,7 @@ impl Mover {
     /// The mesh with its points moved; `round` counts the repairs.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] where the best state of Opt-beta cannot be triangulated anew.
+    /// [`Error::Degenerate`] where the best state of Opt-beta cannot be retriangulated.
     pub fn moved(&self, mesh: LiveMesh, round: usize, run: &mut RunContext, report: &mut Report) -> Result<LiveMesh, Error> {
         let mut sweep = Sweep::new(mesh);
         let passes = |at_first: usize| if round == 0 { at_first } else { PASSES_AGAIN };

@@ -15,7 +15,7 @@ use crate::triangulation::{Crossing, Graph, Planar, planar};
 pub(super) const LEAST: f64 = 1e3 * GRID;
 /// How far outside of the frame lines are looked at, in normalised units.
 const MARGIN: f64 = 0.01;
-/// Where segments cross they are split; rounding then moves them, so that they may cross anew.
+/// Where segments cross they are split; rounding then moves them, so that they may cross again.
 const MOST_SPLITS: usize = 8;
 
 /// Points, and segments between them; of the border with the inside on their left.

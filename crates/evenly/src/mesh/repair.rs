@@ -1,4 +1,4 @@
-//! Where points cannot come to rest there are too many or too few of them: some are taken away or added, far from each other, and the others find their places anew.
+//! Where points cannot come to rest there are too many or too few of them: some are taken away or added, far from each other, and the others find new places.
 
 mod changes;
 

@@ -2,7 +2,7 @@
 //!
 //! Ebeida, Awad, Ge, Mahmoud, Mitchell, Knupp and Wei, "Improving Spatial Coverage while Preserving the Blue Noise of Point Sets", Computer-Aided Design 46,
 //! 2014, doi 10.1016/j.cad.2013.08.015, section 5: ten steps of Nelder and Mead's method on r_c / r_f of the cell that a point would have, which is
-//! made anew at every place that is tried; sweeps by rows, each move made at once, until beta = max r_c / min r_f has come down to the target.
+//! remade at every place that is tried; sweeps by rows, each move made at once, until beta = max r_c / min r_f has come down to the target.
 //!
 //! What differs, and why: the rows are those of the engine's cells, so that threads can share a sweep. The neighbours' neighbours are all that a cell is made
 //! of; a point moves by one spacing at most. The state with the least beta is kept, as beta goes up and down on the way. Where lengths are wanted that vary, as in meshes, both radii are taken in
@@ -39,7 +39,7 @@ use crate::triangulation::Distances;
 pub struct OptBetaParams {
     /// The coverage radius over the smallest distance shall be this at most; 0.578 or more. `None` for 0.85, or what it comes to without.
     pub beta: Option<f64>,
-    /// The part of each move that is made; in (0, 1]. `None` for 0.7 above a target of 0.9, lest it is left far behind, and 1 below.
+    /// The part of each move that is made; in (0, 1]. `None` for 0.7 above a target of 0.9, which is otherwise left far behind, and 1 below.
     pub damping: Option<f64>,
     /// Stops after this many sweeps in any case; and where 1000 have brought neither a lower ratio nor a lower mean of the points' own.
     pub iterations: usize,

@@ -10,8 +10,8 @@
 //! - Edges are visited along the Hilbert curve, not in random order: the quality is the same, the time a tenth.
 //! - [`Mode::Fast`] adds momentum, restarted if the energy keeps rising, which the proof does not cover: a better result in a third of the iterations.
 //! - In a rectangle the border is sampled first: corners and evenly spaced points slide along it, and while they find their
-//!   place the triangulation is built anew, so that the triangles cover the whole domain.
-//! - In a polygon border points are those that the border stops. Every few iterations the triangulation is built anew, and triangles whose circumcentre lies outside, or whose
+//!   place the triangulation is rebuilt, so that the triangles cover the whole domain.
+//! - In a polygon border points are those that the border stops. Every few iterations the triangulation is rebuilt, and triangles whose circumcentre lies outside, or whose
 //!   corners do not see each other, are left out, as the paper does at the start: corners may stay free. Points that come together at the border are moved apart.
 //! - Where the density varies, a triangle's model is as large as the density at its centroid wants it (the paper's future work). The energy may then rise.
 //!
@@ -41,7 +41,7 @@ use crate::triangulation::delaunay;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mode {
-    /// The paper's plain steps: the energy never rises, but where a rectangle's triangulation is built anew.
+    /// The paper's plain steps: the energy never rises, but where a rectangle's triangulation is rebuilt.
     Paper,
     /// Momentum, restarted if the energy keeps rising: fewer iterations and a lower energy.
     #[default]

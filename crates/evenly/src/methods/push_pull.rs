@@ -6,7 +6,7 @@
 //!
 //! What differs from the paper, and why:
 //! - The three steps of a visit work one after the other on a copy of the star, and each neighbour then moves once: as good as
-//!   reading the star anew in between, and faster. Summing three shifts of one reading diverges on tough targets.
+//!   rereading the star in between, and faster. Summing three shifts of one reading diverges on tough targets.
 //! - Points are visited in an order that is new in each pass: a fixed order runs into cycles that never end.
 //! - Obtuse triangles are not left out. It makes no difference in the plane, and on curved surfaces they count.
 //! - The Delaunay property is restored where a star is read, not after each move; before a run counts as converged, everywhere.

@@ -107,7 +107,7 @@ pub(super) fn validate_spacing(space: &Space, spacing: f64) -> Result<(), Error>
     Ok(())
 }
 
-/// By which part of itself a spacing must be exceeded, lest rounding to input units brings points nearer.
+/// By which part of itself a spacing must be exceeded, so that rounding to input units brings no points nearer.
 pub(super) fn rounding_margin(space: &Space, spacing: f64) -> f64 {
     ROUNDING + 2.0 * space.resolution() / spacing
 }

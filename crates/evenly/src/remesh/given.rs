@@ -93,7 +93,7 @@ fn side(draft: &Draft, h: u32, at: DVec3) -> f64 {
     (to - from).cross(at - from).dot(draft.surface.normals[draft.hosts[h as usize / 3] as usize])
 }
 
-/// Puts a vertex into a triangle, on its edge, or takes its corner. Then the triangles around are made Delaunay as far as they have the same host, lest searches take long.
+/// Puts a vertex into a triangle, on its edge, or takes its corner. Then the triangles around are made Delaunay as far as they have the same host, which keeps searches short.
 fn put(draft: &mut Draft, t: u32, place: Place) -> u32 {
     // By the edges, the areas that make the place's weights.
     let areas = [0, 1, 2].map(|k| side(draft, 3 * t + k, place.at));

@@ -306,7 +306,7 @@ fn relative_sizes(surface: &Surface, sizes: &[f64]) -> Vec<f64> {
     if sizes.is_empty() {
         return vec![1.0; surface.n_vertices()];
     }
-    // By the largest first, lest squares overflow.
+    // By the largest first, so that squares do not overflow.
     let largest = sizes.iter().copied().fold(0.0, f64::max);
     let shares: Vec<f64> = sizes.iter().map(|size| size / largest).collect();
     let mean = (surface.inner_area() / weighted_area(surface, &shares)).sqrt();

@@ -13,7 +13,7 @@ use crate::run::{Outcome, Report, RunContext};
 use crate::star::Rule;
 use crate::sweep::{Ending, Ground as _, Order, Plan, Sweep};
 
-/// In the first passes triangles change much, and with them the area that chords enclose: the spacing is taken anew after each of these.
+/// In the first passes triangles change much, and with them the area that chords enclose: the spacing is recomputed after each of these.
 const RENEWALS: [usize; 7] = [1, 2, 4, 8, 12, 20, 30];
 /// After so many passes the last restless vertices are left to themselves, in stages of some passes.
 const EVEN_PASSES: usize = 140;
@@ -252,7 +252,7 @@ fn to_least_ratio(
     sweep.ground_mut().restore(best.1)
 }
 
-/// The first passes, with the spacing taken anew.
+/// The first passes, with the spacing recomputed.
 fn renew(sweep: &mut Sweep<LiveSurface>, rule: &impl Rule, plan: &Plan, run: &mut RunContext, report: &mut Report) -> Ending {
     let (begin, mut ending) = (report.iterations, Ending::PassLimit);
     for max_passes in RENEWALS.map(|passes| begin + passes).into_iter().take_while(|&passes| passes <= plan.max_passes) {

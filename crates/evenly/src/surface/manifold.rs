@@ -52,7 +52,7 @@ pub(super) fn manifold(clean: &Clean, points: &[DVec3], is_repaired: bool) -> Re
         };
         let turned = orientation(triangles.len(), &pairs, |a, b| origin(&triangles, a) != origin(&triangles, b), volume);
         let n_turned = turned.iter().filter(|&&is| is).count();
-        // A turned triangle keeps its half-edges' numbers only if its edges keep their places: (a b c) becomes (b a c), and its edges are sorted anew.
+        // A turned triangle keeps its half-edges' numbers only if its edges keep their places: (a b c) becomes (b a c), and its edges are sorted again.
         for (triangle, _) in triangles.iter_mut().zip(&turned).filter(|(_, is)| **is) {
             triangle.swap(0, 1);
         }

@@ -79,7 +79,7 @@ impl Frame {
     fn around(points: impl Iterator<Item = DVec3> + Clone) -> Self {
         let low = points.clone().fold(DVec3::INFINITY, DVec3::min);
         let high = points.fold(DVec3::NEG_INFINITY, DVec3::max);
-        // Halves, lest the sum overflows.
+        // Halves, so that the sum does not overflow.
         let (centre, half) = (0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low);
         let longest = half.max_element();
         Self { centre, scale: if longest > 0.0 { 2f64.powi(libm::ilogb(longest).clamp(-1020, 1020)) } else { 1.0 } }

@@ -1,7 +1,7 @@
 //! Cells in colours: how threads share a pass, so that they never meet and the result does not depend on them.
 //!
 //! In the plane the domain is divided into cells of at least twelve spacings a side, and each into four by four blocks. A vertex belongs to a block
-//! until the division is made anew, wherever it goes. A thread that works on a cell may touch the vertices of the cell and
+//! until the division is remade, wherever it goes. A thread that works on a cell may touch the vertices of the cell and
 //! of the two blocks around it: these territories are disjoint for cells of one colour, which are every second along both axes. A
 //! visit that would reach further (the star, its second ring, and whatever flips and moves touch) is put off to a tail
 //! that one thread works off in order. This is asked of every vertex that is touched, so it is certain, not likely.

@@ -28,7 +28,7 @@ pub enum Schedule {
 /// In which order the points of a cell are visited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// At random, anew in each pass.
+    /// At random, in a new order each pass.
     Shuffled,
     /// By rows of half a spacing, and along them.
     Rows,
@@ -249,7 +249,7 @@ impl<G: Ground> Sweep<G> {
         self.unrest.len() > PATIENCE && last.iter().sum::<f64>() > RESTLESS * WINDOW as f64
     }
 
-    /// The best state, if the sweep goes on with another rule: all points are looked at anew.
+    /// The best state, if the sweep goes on with another rule: all points are visited again.
     pub fn change_rule(&mut self, n_passes: usize) -> G::State {
         self.mesh.soil_all();
         std::mem::replace(&mut self.best, Best::start(&self.mesh, n_passes)).state

@@ -111,7 +111,7 @@ pub(crate) trait Ground: Sync + Sized {
 
     /// Makes all of the mesh Delaunay. Returns how many flips it took.
     fn legalize(&mut self) -> usize;
-    /// Triangulates anew where the mesh is torn. Whether it had to.
+    /// Retriangulates where the mesh is torn. Whether it had to.
     fn mend(&mut self) -> Result<bool, Error>;
     /// Proves what the mesh claims to be, but for the Delaunay property.
     fn check(&self) -> Result<(), String>;

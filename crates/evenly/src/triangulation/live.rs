@@ -145,7 +145,7 @@ impl LiveMesh {
         self.fixed.get(point as usize).is_some_and(|&is| is)
     }
 
-    /// The same points, put at `places` and triangulated anew. Where that cannot be, all stays as it was.
+    /// The same points, put at `places` and retriangulated. Where that cannot be, all stays as it was.
     pub fn rebuild(&mut self, places: Vec<DVec2>) -> Result<(), Error> {
         *self = match &self.held {
             None => {
@@ -163,7 +163,7 @@ impl LiveMesh {
         Ok(())
     }
 
-    /// Triangulates anew where the mesh is torn; of a point and its copies, the point's own way counts. Whether it had to.
+    /// Retriangulates where the mesh is torn; of a point and its copies, the point's own way counts. Whether it had to.
     pub fn mend(&mut self) -> Result<bool, Error> {
         let is_torn = *self.is_torn.get_mut();
         if is_torn {

@@ -100,7 +100,7 @@ pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
     Ok(Planar { half_edges, positions, source, lines })
 }
 
-/// Numbers the vertices anew, so that each has triangles, all in one fan. Returns the point that each stands for.
+/// Renumbers the vertices, so that each has triangles, all in one fan. Returns the point that each stands for.
 fn separate_fans(half_edges: &mut HalfEdges, n_points: usize) -> Vec<u32> {
     let is_used = half_edges.outgoing(n_points);
     let mut source: Vec<u32> = (0..n_points as u32).filter(|&v| is_used[v as usize] != BORDER).collect();

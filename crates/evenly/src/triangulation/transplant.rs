@@ -182,7 +182,7 @@ impl LiveMesh {
         }
     }
 
-    /// Whether the mesh must be triangulated anew: see [`LiveMesh::mend`].
+    /// Whether the mesh must be retriangulated: see [`LiveMesh::mend`].
     pub fn is_torn(&self) -> bool {
         self.is_torn.load(Relaxed)
     }

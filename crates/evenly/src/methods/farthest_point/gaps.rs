@@ -27,7 +27,7 @@ pub(super) struct Gaps {
     buffer: StarBuffer,
     /// The gaps, and the points, where a point has been taken out.
     around: Vec<u32>,
-    /// How often the mesh was made anew.
+    /// How often the mesh was rebuilt.
     pub n_rebuilt: usize,
 }
 
@@ -78,7 +78,7 @@ impl Gaps {
         Ok(self.mesh.distances()?.smallest)
     }
 
-    /// Where the mesh is torn, it is made anew, and all gaps are measured.
+    /// Where the mesh is torn, it is rebuilt, and all gaps are measured.
     fn mend(&mut self) -> Result<(), Error> {
         if self.mesh.mend()? {
             self.n_rebuilt += 1;

@@ -39,7 +39,7 @@ pub(super) enum Rim {
     Gaps,
 }
 
-/// Iterations after which a rectangle's triangulation is built anew, while border points find their place.
+/// Iterations after which a rectangle's triangulation is rebuilt, while border points find their place.
 const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 /// A polygon's is after each so many, until so many have been made; and after each so many more.
 const CUT: usize = 3;
@@ -65,7 +65,7 @@ impl Rim {
         }
     }
 
-    /// Whether the triangulation is built anew after so many iterations.
+    /// Whether the triangulation is rebuilt after so many iterations.
     pub fn is_settling(self, iteration: usize) -> bool {
         match self {
             Self::None => false,
@@ -74,7 +74,7 @@ impl Rim {
         }
     }
 
-    /// Builds the triangulation anew.
+    /// Rebuilds the triangulation.
     pub fn resettle(self, mut triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
         match self {
             Self::Walls => resettle(triangulation, n_fixed, spacing),
@@ -128,7 +128,7 @@ pub(super) fn part_crowded(domain: &Domain, positions: &mut [DVec2], order: &[u3
     part(domain, positions, |vertex| (order[vertex] as usize) < n_fixed, TOO_NEAR, spacing);
 }
 
-/// Triangulates anew, and cuts what lies outside of a polygon off: the dual of the clipped Voronoi diagram stays.
+/// Retriangulates, and cuts what lies outside of a polygon off: the dual of the clipped Voronoi diagram stays.
 fn cut_out(triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
     let Triangulation { mut positions, domain, order, .. } = triangulation;
     part_crowded(&domain, &mut positions, &order, n_fixed, spacing);

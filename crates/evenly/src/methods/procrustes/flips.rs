@@ -98,7 +98,7 @@ impl FlipRule<'_> {
         // A gain within rounding could be taken back and forth for ever.
         let pays = gain > 1e-12 * c * c;
         let stand = self.domain.is_upright(ps, pr) && self.domain.is_upright(sq, sr);
-        // In gaps triangles count for nothing; which edges are there is found when the triangulation is built anew.
+        // In gaps triangles count for nothing; which edges are there is found when the triangulation is rebuilt.
         let is_in_gap = || [pq + pr, pq + ps, pr + ps, pq + pr + ps].iter().any(|sum| self.sides.is_gap(at(p) + *sum / 3.0));
         (pays && stand && !is_in_gap()).then_some([new_a, new_b])
     }

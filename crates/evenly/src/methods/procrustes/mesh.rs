@@ -267,7 +267,7 @@ impl Mesh {
         spokes.filter(|&(u, v)| !self.triangulation.domain.is_upright(u, v)).count()
     }
 
-    /// The mesh with its triangulation built anew; its vertices keep their numbers and their momentum.
+    /// The mesh with its triangulation rebuilt; its vertices keep their numbers and their momentum.
     pub fn rebuilt(self, n_fixed: usize, rebuild: impl FnOnce(Triangulation) -> Result<Triangulation, Error>) -> Result<Self, Error> {
         let mut mesh = Self::new(rebuild(self.triangulation)?, self.sides, n_fixed);
         mesh.velocity = self.velocity;
