@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::context::{Context, Event, Stage};
 use crate::error::Error;
+use crate::given::{density_of, measured_in, positioned};
 use crate::memory;
 use crate::message::Message;
 use crate::method::{Job, in_spacings, require_density, require_density_of_start};
-use crate::points::{density_of, measured_in, positioned, warp_for};
+use crate::points::warp_for;
 use crate::resource::{Pixels, Positions, Resource, Resources};
 use crate::space::{Domain, Metric};
 
