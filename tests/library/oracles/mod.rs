@@ -1,6 +1,8 @@
 //! Oracles: what is measured, found once more by brute force over points, places and segments. They know no triangulation, and nothing of the library but its data types.
 
+mod masses;
 mod plane;
+mod visibility;
 
 use glam::DVec2;
 
