@@ -1,7 +1,9 @@
 //! Oracles: what is measured, found once more by brute force over points, places and segments. They know no triangulation, and nothing of the library but its data types.
 
+mod cells;
 mod masses;
 mod plane;
+mod surfaces;
 mod visibility;
 
 use glam::DVec2;
