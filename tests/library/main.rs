@@ -18,6 +18,7 @@ mod golden;
 mod laws;
 mod meshes;
 mod methods;
+mod oracles;
 mod polygons;
 mod spaces;
 mod starts;

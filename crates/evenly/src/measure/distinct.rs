@@ -2,9 +2,11 @@
 
 use glam::DVec2;
 
+use crate::density::Field;
 use crate::error::Error;
 use crate::points::{PointSet, hilbert_order};
-use crate::triangulation::{Triangulation, delaunay};
+use crate::space::Domain;
+use crate::triangulation::{LiveMesh, Triangulation, delaunay};
 
 /// The triangulation of the distinct points among some.
 pub(super) struct Distinct {
@@ -37,5 +39,20 @@ impl Distinct {
         let (sorted, order) = sorted.into_iter().unzip();
         let triangulation = delaunay(&domain, sorted, order)?;
         Ok(Self { triangulation, coincident_points, is_shared, vertex_of })
+    }
+
+    /// The domain: not a cover.
+    pub fn domain(&self) -> Domain {
+        self.triangulation.domain.uncovered(self.triangulation.copies)
+    }
+
+    /// The same points in a mesh whose stars know the border and the density, in units of their own spacing.
+    pub fn live(&self, field: Option<Field>) -> Result<LiveMesh, Error> {
+        let (domain, n_points) = (self.domain(), self.triangulation.n_base());
+        let (order, spacing) = ((0..n_points as u32).collect(), domain.hex_spacing(n_points));
+        if domain.is_periodic {
+            return Ok(LiveMesh::of(&domain, field, Triangulation { order, ..self.triangulation.clone() }, spacing));
+        }
+        LiveMesh::new(&domain, field, self.triangulation.positions.clone(), order, spacing)
     }
 }

@@ -27,9 +27,9 @@ pub struct PointMeasures {
 /// # Errors
 /// As [`measure`](super::measure).
 pub fn measure_each(points: &PointSet) -> Result<Vec<PointMeasures>, Error> {
-    let Distinct { triangulation, is_shared, vertex_of, .. } = Distinct::triangulate(points)?;
-    let n_distinct = triangulation.n_base();
-    let domain = triangulation.domain.uncovered(triangulation.copies);
+    let distinct = Distinct::triangulate(points)?;
+    let Distinct { triangulation, is_shared, vertex_of, .. } = &distinct;
+    let (domain, n_distinct) = (distinct.domain(), triangulation.n_base());
     let (mean_capacity, spacing) = (domain.area() / n_distinct as f64, domain.hex_spacing(points.n_points()));
     let of = |star: &StarMeasures, is_inner: bool| PointMeasures {
         nearest: star.nearest / spacing,
@@ -38,18 +38,18 @@ pub fn measure_each(points: &PointSet) -> Result<Vec<PointMeasures>, Error> {
         is_inner,
     };
     let measured = if let Some(field) = points.field(&domain) {
-        weigh(&domain, &field, &triangulation.positions[..n_distinct], spacing)?
+        weigh(&mut distinct.live(Some(field))?.in_units_of(spacing), &domain, spacing)?
     } else if domain.border.is_some() {
         let seen = |seen: Seen| of(&seen.measures(), seen.is_inner);
-        look(&domain, &triangulation.positions, seen)?
+        look(&mut distinct.live(None)?, 0.0, seen)?
     } else {
         let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
-        let mut reader = StarReader::new(&triangulation, &outgoing);
+        let mut reader = StarReader::new(triangulation, &outgoing);
         (0..n_distinct).map(|vertex| of(&reader.read(vertex), true)).collect()
     };
     let alone = measured
         .iter()
-        .zip(&is_shared)
+        .zip(is_shared)
         .map(|(&each, &is_shared)| PointMeasures { nearest: if is_shared { 0.0 } else { each.nearest }, ..each });
     let alone: Vec<PointMeasures> = alone.collect();
     Ok(vertex_of.iter().map(|&vertex| alone[vertex as usize]).collect())

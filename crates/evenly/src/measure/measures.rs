@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::distinct::Distinct;
 use super::each::PointMeasures;
-use super::sight::{Seen, look};
+use super::sight::{Seen, largest_reach, look};
 use super::star::{StarMeasures, StarReader};
 use super::triangles;
 use super::weighted::{density_error, weigh};
@@ -137,39 +137,43 @@ const HEXAGON: f64 = 0.160_375_074_774_976_5;
 /// # Errors
 /// [`Error::Degenerate`] for fewer points, or where a rectangle's points all lie on one line.
 pub fn measure(points: &PointSet) -> Result<Measures, Error> {
-    let Distinct { triangulation, coincident_points, is_shared, .. } = Distinct::triangulate(points)?;
-    let n_distinct = triangulation.n_base();
-    let domain = triangulation.domain.uncovered(triangulation.copies);
+    let distinct = Distinct::triangulate(points)?;
+    let Distinct { triangulation, is_shared, .. } = &distinct;
+    let (domain, coincident_points, n_distinct) = (distinct.domain(), distinct.coincident_points, triangulation.n_base());
     let mean_capacity = domain.area() / n_distinct as f64;
     let n_points = points.n_points();
     let spacing = domain.hex_spacing(n_points);
 
     let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
-    if domain.border.is_some() {
-        let seen = |seen: Seen| seen.measures();
-        let stars = look(&domain, &triangulation.positions, seen)?;
-        stars.into_iter().zip(&is_shared).for_each(|(star, &is_shared)| sums.add(star, mean_capacity, is_shared));
-    } else {
-        sums = sum_up(&triangulation, mean_capacity, &is_shared);
-    }
-
     let field = points.field(&domain);
+    let is_live = field.is_some() || domain.border.is_some();
+    let mut live = is_live.then(|| distinct.live(field.clone())).transpose()?;
+    if let Some(live) = live.as_mut().filter(|_| domain.border.is_some()) {
+        let stars = look(live, f64::INFINITY, |seen: Seen| seen.measures())?;
+        let bounds: Vec<f64> = stars.iter().map(|star| star.reach).collect();
+        stars.into_iter().zip(is_shared).for_each(|(star, &is_shared)| sums.add(star, mean_capacity, is_shared));
+        if field.is_none() {
+            sums.reach = largest_reach(live, &bounds);
+        }
+    } else {
+        sums = sum_up(triangulation, mean_capacity, is_shared);
+    }
+    let triangles = triangles::measure(triangulation, live.as_mut())?;
+
     let mut cvt_energy = sums.second_moment / (HEXAGON * n_distinct as f64 * mean_capacity * mean_capacity);
-    if let Some(field) = &field {
-        let weighted = weigh(&domain, field, &triangulation.positions[..n_distinct], spacing)?;
-        sums.take(&weighted, spacing, &is_shared);
+    if let Some(live) = live.filter(|_| field.is_some()) {
+        let weighted = weigh(&mut live.in_units_of(spacing), &domain, spacing)?;
+        sums.take(&weighted, spacing, is_shared);
         cvt_energy = f64::NAN;
     }
     // In a polygon's frame most of the mass may lie outside.
     let density_error =
         field.as_ref().filter(|_| domain.border.is_none()).and_then(|field| density_error(&domain, field, points.normalized().1));
-
-    let triangles = triangles::measure(&triangulation)?;
     let n_inner = (sums.n_inner as f64).max(1.0);
     let is_visible = domain.border.is_some();
     let distance = |nearest: f64| if coincident_points > 0 { 0.0 } else { nearest / spacing };
     let visible = distance(sums.min_distance);
-    let min_distance = if is_visible { distance(nearest_of_all(&triangulation, field.as_ref())) } else { visible };
+    let min_distance = if is_visible { distance(nearest_of_all(triangulation, field.as_ref())) } else { visible };
     let coverage_radius = sums.reach / spacing;
     Ok(Measures {
         n_points,
@@ -243,7 +247,7 @@ impl Sums {
         if !is_shared && star.nearest.is_finite() {
             self.distance += star.nearest;
         }
-        self.n_alone += usize::from(!star.nearest.is_finite());
+        self.n_alone += usize::from(!is_shared && !star.nearest.is_finite());
         self.reach = self.reach.max(star.reach);
         let deviation = star.capacity / mean_capacity - 1.0;
         self.capacity_squares += deviation * deviation;
@@ -265,8 +269,9 @@ impl Sums {
     fn take(&mut self, weighted: &[PointMeasures], spacing: f64, is_shared: &[bool]) {
         let deviations = || weighted.iter().map(|point| point.capacity - 1.0);
         self.min_distance = weighted.iter().map(|point| point.nearest).fold(f64::INFINITY, f64::min) * spacing;
-        self.distance =
-            weighted.iter().zip(is_shared).filter(|(_, is_shared)| !**is_shared).map(|(point, _)| point.nearest * spacing).sum();
+        let counts =
+            |(point, is_shared): (&PointMeasures, &bool)| (!is_shared && point.nearest.is_finite()).then_some(point.nearest * spacing);
+        self.distance = weighted.iter().zip(is_shared).filter_map(counts).sum();
         self.reach = weighted.iter().map(|point| point.reach).fold(0.0, f64::max) * spacing;
         self.capacity_squares = deviations().map(|deviation| deviation * deviation).sum();
         self.capacity_deviation = deviations().map(f64::abs).fold(0.0, f64::max);

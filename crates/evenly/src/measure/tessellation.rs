@@ -7,7 +7,7 @@ use super::sight::look;
 use super::voronoi::CellReader;
 use crate::error::Error;
 use crate::points::PointSet;
-use crate::triangulation::clipped;
+use crate::triangulation::{clipped, triangles_seen};
 
 /// A point set's Delaunay triangulation and Voronoi diagram, in input units and in the caller's order of points.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +28,9 @@ pub struct Tessellation {
 /// # Errors
 /// [`Error::Degenerate`] for fewer points, or where a rectangle's points all lie on one line.
 pub fn tessellate(points: &PointSet) -> Result<Tessellation, Error> {
-    let Distinct { triangulation, .. } = Distinct::triangulate(points)?;
+    let distinct = Distinct::triangulate(points)?;
+    let triangulation = &distinct.triangulation;
+    let mut live = triangulation.domain.border.as_ref().map(|_| distinct.live(None)).transpose()?;
     let n_base = triangulation.n_base();
     let index = |v: u32| triangulation.order[v as usize % n_base] as usize;
     let outward = |p: DVec2| {
@@ -41,7 +43,8 @@ pub fn tessellate(points: &PointSet) -> Result<Tessellation, Error> {
         cells: vec![Vec::new(); points.n_points()],
         valence: vec![None; points.n_points()],
     };
-    for corners in clipped(&triangulation)?.triangles() {
+    let clipped = live.as_mut().map_or_else(|| clipped(triangulation), triangles_seen)?;
+    for corners in clipped.triangles() {
         // Of a triangle's copies on a cover, that one counts whose first vertex, in the order of base vertices, is no copy.
         let turned = |k: usize| [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
         let Some(corners) = (0..3).map(turned).min_by_key(|t| t.map(|v| v as usize % n_base)) else { continue };
@@ -53,9 +56,8 @@ pub fn tessellate(points: &PointSet) -> Result<Tessellation, Error> {
         tessellation.triangles.push(corners.map(index));
         tessellation.corners.push([outward(first), outward(first + u), outward(first + v)]);
     }
-    if triangulation.domain.border.is_some() {
-        let seen =
-            look(&triangulation.domain, &triangulation.positions, |seen| (seen.cell.to_vec(), seen.is_inner.then_some(seen.spokes.len())))?;
+    if let Some(live) = &mut live {
+        let seen = look(live, f64::INFINITY, |seen| (seen.cell.to_vec(), seen.is_inner.then_some(seen.spokes.len())))?;
         for (vertex, (cell, valence)) in seen.into_iter().enumerate() {
             let (site, point) = (triangulation.positions[vertex], index(vertex as u32));
             tessellation.cells[point] = cell.into_iter().map(|c| outward(site + c)).collect();
@@ -64,7 +66,7 @@ pub fn tessellate(points: &PointSet) -> Result<Tessellation, Error> {
         return Ok(tessellation);
     }
     let outgoing = triangulation.half_edges.outgoing(triangulation.positions.len());
-    let mut reader = CellReader::new(&triangulation, &outgoing);
+    let mut reader = CellReader::new(triangulation, &outgoing);
     for vertex in 0..n_base {
         let is_clear = reader.read(vertex);
         let site = triangulation.positions[vertex];

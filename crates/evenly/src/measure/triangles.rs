@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::error::Error;
 use crate::geometry::triangle::Shape;
-use crate::triangulation::{BORDER, HalfEdges, Triangulation, clipped};
+use crate::triangulation::{BORDER, HalfEdges, LiveMesh, Triangulation, clipped, triangles_seen};
 
 /// Shapes of some triangles, summed up.
 #[derive(Clone)]
@@ -67,10 +67,13 @@ pub(super) struct TriangleMeasures {
     pub isolated_points: usize,
 }
 
-/// The shapes of the triangles whose circumcentre lies in the domain.
-pub(super) fn measure(triangulation: &Triangulation) -> Result<TriangleMeasures, Error> {
+/// The shapes of the triangles whose circumcentre lies in the domain; in a polygon of those that are seen in a mesh of the same points.
+pub(super) fn measure(triangulation: &Triangulation, live: Option<&mut LiveMesh>) -> Result<TriangleMeasures, Error> {
     let (mut border, mut interior, mut all) = (Shapes::NONE, Shapes::NONE, Shapes::NONE);
-    let clipped = clipped(triangulation)?;
+    let clipped = match live {
+        Some(live) if triangulation.domain.border.is_some() => triangles_seen(live)?,
+        _ => clipped(triangulation)?,
+    };
     let n_vertices = triangulation.positions.len();
     let is_border = is_on_border(&clipped, n_vertices);
     let mut is_isolated = vec![true; n_vertices];

@@ -9,12 +9,9 @@ use crate::space::Domain;
 use crate::star::Senses;
 use crate::triangulation::{LiveMesh, StarBuffer};
 
-/// Measures distinct points, given in Hilbert order.
-pub(super) fn weigh(domain: &Domain, field: &Field, positions: &[DVec2], spacing: f64) -> Result<Vec<PointMeasures>, Error> {
-    let n_points = positions.len();
-    let order = (0..n_points as u32).collect();
-    let mut mesh = LiveMesh::new(domain, Some(field.clone()), positions.to_vec(), order, spacing)?;
-    let unit = spacing * spacing * n_points as f64 / domain.area();
+/// Measures distinct points in a mesh that knows the density and has this spacing.
+pub(super) fn weigh(mesh: &mut LiveMesh, domain: &Domain, spacing: f64) -> Result<Vec<PointMeasures>, Error> {
+    let unit = spacing * spacing * mesh.n_points() as f64 / domain.area();
     mesh.look(
         Senses { lengths: Some(f64::INFINITY), radii: Some(0.0), mass: true, ..Senses::default() },
         |_, _, StarBuffer { star, sight, .. }| {

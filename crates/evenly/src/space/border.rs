@@ -340,6 +340,15 @@ impl Border {
         !self.meets_any(a, b, |_, _| true)
     }
 
+    /// Whether no segment stands between a place inside and any place of a triangle that has none in it.
+    pub fn sees_all(&self, from: DVec2, corners: [DVec2; 3]) -> bool {
+        // What stands in between crosses the way to a corner, or begins in between.
+        let (low, high) = corners.iter().fold((from, from), |(low, high), &corner| (low.min(corner), high.max(corner)));
+        let [a, b, c] = corners;
+        let is_between = |p: DVec2| [[a, b], [b, c], [c, a]].into_iter().any(|[a, b]| is_in_triangle(p, [from, a, b]));
+        corners.iter().all(|&corner| self.sees(from, corner)) && !self.any_in(low, high, |[start, _]| is_between(start))
+    }
+
     /// Where a point inside comes to that is to go to `to`: there, or along the segment that stands in its way, or up to it.
     pub fn land(&self, from: DVec2, to: DVec2) -> DVec2 {
         let Some(Meeting { part, segment: [a, b] }) = self.first_meeting(from, to) else {
@@ -366,6 +375,12 @@ fn meets(from: DVec2, way: DVec2, [a, b]: [DVec2; 2]) -> Option<f64> {
     let to_start = a - from;
     let [part, place] = [along, way].map(|side| side.perp_dot(to_start) / against);
     ((0.0..=1.0).contains(&part) && (0.0..=1.0).contains(&place)).then_some(part)
+}
+
+/// Whether a place lies in a triangle, whichever way that runs.
+fn is_in_triangle(p: DVec2, [a, b, c]: [DVec2; 3]) -> bool {
+    let turns = [(b - a).perp_dot(p - a), (c - b).perp_dot(p - b), (a - c).perp_dot(p - c)];
+    turns.iter().all(|&turn| turn >= 0.0) || turns.iter().all(|&turn| turn <= 0.0)
 }
 
 /// Whether a segment has a place in a box.

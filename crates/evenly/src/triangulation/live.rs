@@ -71,13 +71,18 @@ impl LiveMesh {
     /// The Delaunay triangulation of distinct points, given in Hilbert order. Stars will show lengths in units of `spacing`.
     pub fn new(base: &Domain, field: Option<Field>, points: Vec<DVec2>, order: Vec<u32>, spacing: f64) -> Result<Self, Error> {
         let triangulation = if base.is_periodic { delaunay(base, points, order)? } else { framed(base, points, order)? };
+        Ok(Self::of(base, field, triangulation, spacing))
+    }
+
+    /// Points that are triangulated already: of a bounded domain, with the frame.
+    pub fn of(base: &Domain, field: Option<Field>, triangulation: Triangulation, spacing: f64) -> Self {
         let n_frame = if base.is_periodic { 0 } else { FRAME.len() };
         let Triangulation { half_edges, positions, domain, copies, order } = triangulation;
         let is_patient = domain.border.is_some() || field.as_ref().is_some_and(Field::has_gaps);
         let share_at_boundary = domain.border.as_ref().map_or(0.0, |border| 0.5 * border.length() * spacing / border.area);
         let patience = if is_patient { Patience::of(order.len(), share_at_boundary) } else { Patience::default() };
         let shares = domain.border.as_ref().map_or_else(Vec::new, |border| part_shares(border, &positions[..order.len()], field.as_ref()));
-        Ok(Self {
+        Self {
             mesh: SharedMesh::new(&half_edges, positions.iter().map(|p| p.to_array())),
             base: base.clone(),
             domain,
@@ -91,7 +96,7 @@ impl LiveMesh {
             patience,
             held: None,
             is_torn: AtomicBool::new(false),
-        })
+        }
     }
 
     /// The constrained Delaunay triangulation of points of a domain with a border. Its points are the triangulation's vertices: parts of the inside that touch in a
@@ -129,6 +134,11 @@ impl LiveMesh {
             }
         }
         self
+    }
+
+    /// The same, of which stars show lengths in units of another spacing.
+    pub fn in_units_of(self, spacing: f64) -> Self {
+        Self { spacing, ..self }
     }
 
     pub fn border(&self) -> Option<&Border> {

@@ -35,7 +35,7 @@ pub(crate) use mesh::{Triangulation, circumcentre};
 pub(crate) use patch::Patch;
 pub(crate) use planar::{Crossing, Graph, Planar, planar};
 pub(crate) use refine::{Refinement, Refining};
-pub(crate) use seen::clipped;
+pub(crate) use seen::{clipped, triangles_seen};
 pub(crate) use shared::{SharedMesh, Territory};
 pub(crate) use sight::Moments;
 pub(crate) use sizing::Sizing;

@@ -22,7 +22,15 @@ pub(crate) fn clipped(triangulation: &Triangulation) -> Result<HalfEdges, Error>
     }
     let n_points = positions.len();
     let order = (0..n_points as u32).collect();
-    let mut mesh = LiveMesh::new(domain, None, positions.clone(), order, domain.hex_spacing(n_points))?;
+    triangles_seen(&mut LiveMesh::new(domain, None, positions.clone(), order, domain.hex_spacing(n_points))?)
+}
+
+/// The triangles of points in a polygon on which all three corners agree.
+///
+/// # Errors
+/// [`Error::Degenerate`] where the points cannot be triangulated.
+pub(crate) fn triangles_seen(mesh: &mut LiveMesh) -> Result<HalfEdges, Error> {
+    let (domain, n_points) = (mesh.domain().clone(), mesh.n_points());
     let stars = mesh.look(Senses::default(), |mesh, v, StarBuffer { star, spokes, .. }| {
         let pairs = (0..spokes.len()).map(|k| (k, [spokes[k].vertex, spokes[star.after(k)].vertex]));
         let seen = pairs.filter(|&(k, [a, b])| {

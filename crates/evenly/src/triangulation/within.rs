@@ -1,5 +1,8 @@
 //! Stars in a polygon: of what a point sees.
 
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
 use glam::DVec2;
 
 use super::live::{LiveMesh, Outside};
@@ -14,6 +17,11 @@ const LEEWAY: f64 = 0.25;
 const NEARBY: f64 = 2.5;
 /// So many points are looked at, at most, for those that stand in for hidden neighbours.
 const MOST_SEEN: usize = 400;
+/// How exactly the square of a cell's reach is found where cells overlap, and how many triangles are looked at for it, at most.
+const EXACT: f64 = 1e-6;
+const MOST_LOOKS: usize = 1 << 11;
+/// Corners of triangles, which may be on a border, are looked at this part of the way before them.
+const ON_BORDER: f64 = 1e-6;
 
 impl LiveMesh {
     /// Whether nothing of a border is so near to a point that its star could be another there, and none of its neighbours is the frame's.
@@ -118,12 +126,103 @@ impl LiveMesh {
         self.mesh.position(v).distance_squared(at)
     }
 
-    /// The squared distance of a place that the vertex `v` sees to the nearest point that sees it, of those that were looked at for the star of `v`.
-    pub fn distance_to_seeing(&self, v: u32, near: &[u32], place: DVec2) -> f64 {
-        let nearer = |least: f64, &other: &u32| {
-            let squared = self.distance_squared(place, other);
-            if squared < least && self.domain.sees(self.position(other), place) { squared } else { least }
+    /// The squared distance of the farthest place of what `v` sees of its cell from the nearest point that sees it, of those that were looked at for its star; the outline is given relative to `v`. What
+    /// is not above `floor` may be anything up to it.
+    ///
+    /// Behind corners cells overlap: what this point sees may be nearer to one that it does not see, and the farthest place then need not be a corner. It is found in smaller and smaller triangles, those
+    /// first that may hold it.
+    pub fn reach_of_seeing(&self, v: u32, near: &[u32], outline: &[DVec2], floor: f64) -> f64 {
+        let at = self.position(v);
+        let is_nearer = |place: DVec2, other: DVec2| place.distance_squared(other) < place.length_squared();
+        let others = near.iter().map(|&other| self.position(other) - at);
+        let nearer: Vec<DVec2> = others.filter(|&other| outline.iter().any(|&corner| is_nearer(corner, other))).collect();
+        let farthest = outline.iter().map(|&corner| (at + corner).distance_squared(at)).fold(0.0, f64::max);
+        if nearer.is_empty() || farthest <= floor {
+            return farthest;
+        }
+        let sees = |other: DVec2, place: DVec2| self.domain.sees(at + other, at + place);
+        let sees_all = |other: DVec2, corners: [DVec2; 3]| {
+            self.border().is_none_or(|border| border.sees_all(at + other, corners.map(|corner| at + corner)))
         };
-        near.iter().fold(self.distance_squared(place, v), nearer)
+        let ends = outline.iter().zip(outline.iter().cycle().skip(1));
+        let mut parts: BinaryHeap<Part> = ends.map(|(&a, &b)| Part::new([DVec2::ZERO, a, b], DVec2::ZERO, f64::INFINITY)).collect();
+        let (mut found, mut n_looks) = (floor, 0);
+        let mut seers = Vec::new();
+        while let Some(part) = parts.pop() {
+            if part.bound <= found * (1.0 + EXACT) || n_looks > MOST_LOOKS {
+                return part.bound.max(found);
+            }
+            n_looks += 1;
+            let Part { corners, mut seer, bound } = part;
+            let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let of = |place: DVec2| place.length_squared().min(place.distance_squared(seer));
+            let farthest = corners.into_iter().max_by(|&a, &b| of(a).total_cmp(&of(b)));
+            for place in [farthest.unwrap_or(middle).lerp(middle, ON_BORDER), middle] {
+                let mut distance = place.length_squared().min(place.distance_squared(seer));
+                seers.clear();
+                seers.extend(nearer.iter().copied().filter(|&other| place.distance_squared(other) < distance));
+                seers.sort_by(|a, b| place.distance_squared(*a).total_cmp(&place.distance_squared(*b)));
+                for &other in seers.iter().filter(|&&other| sees(other, place)) {
+                    distance = distance.min(place.distance_squared(other));
+                    // On a border nobody sees a place, so one before it stands for it.
+                    if sees_all(other, corners.map(|corner| corner.lerp(middle, ON_BORDER))) {
+                        seer = other;
+                        break;
+                    }
+                }
+                found = found.max(distance);
+            }
+            parts.extend(halves(corners).map(|corners| Part::new(corners, seer, bound)).into_iter().filter(|part| part.bound > found));
+        }
+        found
     }
+}
+
+/// A triangle of what a point sees of its cell, relative to it.
+struct Part {
+    corners: [DVec2; 3],
+    /// Besides that point one that sees all of it; and the squared distance from points that see it that no place exceeds.
+    seer: DVec2,
+    bound: f64,
+}
+
+impl Part {
+    fn new(corners: [DVec2; 3], seer: DVec2, bound: f64) -> Self {
+        let farthest = |from: DVec2| corners.iter().map(|corner| corner.distance_squared(from)).fold(0.0, f64::max);
+        Self { corners, seer, bound: bound.min(farthest(seer)).min(farthest(DVec2::ZERO)) }
+    }
+}
+
+impl Ord for Part {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}
+
+impl PartialOrd for Part {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Part {}
+
+/// A triangle halved across its longest side.
+fn halves([a, b, c]: [DVec2; 3]) -> [[DVec2; 3]; 2] {
+    let [ab, bc, ca] = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
+    let [a, b, c] = if ab >= bc.max(ca) {
+        [a, b, c]
+    } else if bc >= ca {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    };
+    let middle = a.midpoint(b);
+    [[a, middle, c], [middle, b, c]]
 }
