@@ -53,8 +53,9 @@ impl Steps {
             let watch = |event: Event| match event {
                 Event::Positions(now) => positions = now,
                 Event::Progress(progress) if progress.phase == Phase::Optimize && progress.iteration > 0 => {
+                    let is_seen = to_us.send(Step { progress, positions: std::mem::take(&mut positions) }).is_ok();
                     // Where nobody looks any more, it goes on.
-                    if to_us.send(Step { progress, positions: std::mem::take(&mut positions) }).is_ok() {
+                    if is_seen {
                         let _ = wait.recv();
                     }
                 }
