@@ -234,6 +234,10 @@ fn lengths_may_be_in_input_units() {
     for (line, expected) in [
         ("generate -n 10 --min-distance 5km -o o.csv", "inputs have no units"),
         ("mesh l.txt --edge-length 5km -o o.msh", "inputs have no units"),
+        (
+            "generate -n 50 --size 3,1 --min-distance 5u -o o.csv",
+            "--min-distance is 5u, which is 18.9959 spacings of 2.6321e-1; it must be",
+        ),
         ("generate -n 10 -m lloyd -i 5u -o o.csv", "it must be a count"),
         ("generate -n 10 -m opt-beta --beta 1u -o o.csv", "--beta is 1u; it must be a number alone"),
         ("mesh l.txt --edge-length 0.1 --grade 0.2 --min-distance 0.08u -o o.msh", "where spacings vary it must be in spacings"),

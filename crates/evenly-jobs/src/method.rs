@@ -103,6 +103,20 @@ pub(crate) fn in_spacings(method: Method, settings: &Settings, spacing: Option<f
     }
 }
 
+/// The same error; of a length in input units with what was given, and the spacing that it counts in.
+pub(crate) fn in_units(error: Error, settings: &Settings, spacing: f64) -> Error {
+    match error {
+        Error::Library(evenly::Error::InvalidParameter { name, value, expected }) => match settings.get(name) {
+            Some(length @ Setting::Length(_)) => {
+                let spacings = value.parse::<f64>().map_or(value, |number| format!("{number:.4}"));
+                Error::invalid(name, format!("{length}, which is {spacings} spacings of {spacing:.4e}"), expected)
+            }
+            _ => Error::invalid(name, value, expected),
+        },
+        other => other,
+    }
+}
+
 fn without_lengths(settings: &Settings) -> Settings {
     let values = settings.names().filter_map(|name| Some((name, settings.get(name)?)));
     let others = values.filter(|(_, value)| !matches!(value, Setting::Length(_)));

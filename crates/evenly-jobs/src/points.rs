@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::given::{density_of, fixed_of, joined, measured_in, positioned};
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, in_spacings, optimizer, require_beginning, require_density, require_density_of_start};
+use crate::method::{Job, in_spacings, in_units, optimizer, require_beginning, require_density, require_density_of_start};
 use crate::resource::{Pixels, Positions, Resource, Resources};
 use crate::space::{Domain, Metric};
 
@@ -169,8 +169,9 @@ impl GenerateRequest {
         let given = fixed_of(self.fixed.as_ref(), &space, resources)?.with_density(&density);
         let (fixed, given) = measured_in(*metric, given)?;
         let spacing = n_points.map_or(f64::NAN, |n| hexagonal_spacing(fixed.space().area(), n as f64));
-        let parameters = &in_spacings(*method, parameters, density.is_uniform().then_some(spacing))?;
-        let optimizer = optimizer(Job::Generate, *method, parameters, *seed)?;
+        let told = in_spacings(*method, parameters, density.is_uniform().then_some(spacing))?;
+        let optimizer = optimizer(Job::Generate, *method, &told, *seed).map_err(|error| in_units(error, parameters, spacing))?;
+        let parameters = &told;
         let is_asked = is_asked(*method, parameters);
         let made = PointsOutcome { points: fixed, given, method: *method, optimizer, report: None, notes, is_asked, is_cancelled: false };
         context.enter(Stage::Start);
@@ -235,7 +236,8 @@ impl OptimizeRequest {
         let density = density_of(self.density.as_ref(), resources)?;
         let (points, given) = measured_in(self.metric, points.with_density(&density))?;
         let parameters = in_spacings(self.method, &self.parameters, density.is_uniform().then(|| points.hex_spacing()))?;
-        let optimizer = optimizer(Job::Optimize, self.method, &parameters, self.seed)?;
+        let optimizer = optimizer(Job::Optimize, self.method, &parameters, self.seed)
+            .map_err(|error| in_units(error, &self.parameters, points.hex_spacing()))?;
         let begin = PointSet::new(points.space(), Vec::new())?;
         let is_asked = is_asked(self.method, &self.parameters);
         let made =
