@@ -29,7 +29,7 @@ Examples:
   evenly remesh bunny.obj -n 8500 -o out.ply
   evenly compare -n 1000 --methods lloyd,well-spaced,push-pull -o table.html
 
-Exit codes: 0 done; 1 done, but not converged or a target not reached; 2 bad usage or input, or no output; 130 interrupted, state reached written";
+Exit codes: 0 done; 1 done, but not converged, or a target that was asked for not reached; 2 bad usage or input, or no output; 130 interrupted, state reached written";
 
 /// Spreads points evenly, but not regularly: blue noise.
 #[derive(Parser)]

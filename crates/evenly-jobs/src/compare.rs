@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::given::{density_of, measured_in, positioned};
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, in_spacings, require_density, require_density_of_start};
+use crate::method::{Job, optimizer, require_density, require_density_of_start};
 use crate::points::warp_for;
 use crate::resource::{Pixels, Positions, Resource, Resources};
 use crate::space::{Domain, Metric};
@@ -237,8 +237,7 @@ impl CompareRequest {
         }
         let method = compared.method;
         let spacing = hexagonal_spacing(begin.space.area(), begin.n_points as f64);
-        let settings = in_spacings(method, &self.told(compared), begin.density.is_uniform().then_some(spacing))?;
-        let optimizer = method.optimizer(&settings, seed)?;
+        let (settings, optimizer) = optimizer(method, &self.told(compared), begin.density.is_uniform().then_some(spacing), seed)?;
         let mut points = match (&optimizer, &begin.given) {
             (Some(_), Some(given)) => given.clone(),
             (Some(_), None) => begin.start.start_in(&begin.space, &begin.density, begin.n_points, seed)?,

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use evenly::{CancelToken, Progress, RunContext};
+use evenly::{CancelToken, Phase, Progress, RunContext};
 
 use crate::message::Message;
 
@@ -95,12 +95,18 @@ impl<'a> Context<'a> {
         RunContext::default().with_cancel(self.cancel.clone())
     }
 
-    /// Lets a method run, which tells of its progress.
+    /// Lets a method run, which tells of its progress. There is a state to keep once it moves points.
     pub(crate) fn run<T>(&mut self, method: impl FnOnce(&mut RunContext) -> T) -> T {
-        self.enter(Stage::Optimize);
         let (cancel, has_positions) = (self.cancel.clone(), self.has_positions);
         let shared = RefCell::new(self);
-        let on_progress = |progress| shared.borrow_mut().tell(Event::Progress(progress));
+        let mut has_begun = false;
+        let on_progress = |progress: Progress| {
+            let mut context = shared.borrow_mut();
+            if progress.phase == Phase::Optimize && !std::mem::replace(&mut has_begun, true) {
+                context.enter(Stage::Optimize);
+            }
+            context.tell(Event::Progress(progress));
+        };
         let on_warning = |warning: &str| shared.borrow_mut().tell(Event::Note(&warning.to_owned().into()));
         let on_positions = |positions| shared.borrow_mut().tell(Event::Positions(positions));
         let run = RunContext::default().with_cancel(cancel).on_progress(on_progress).on_warning(on_warning);

@@ -17,7 +17,7 @@ use self::unmet::{forced, unmet};
 use crate::context::{Context, Stage};
 use crate::error::Error;
 use crate::message::Message;
-use crate::method::{Job, check_on_meshes, in_spacings, on_meshes};
+use crate::method::{Job, check_on_meshes, on_meshes};
 use crate::points::Ending;
 use crate::resource::{Data as _, Lengths, Lines, Pixels, Positions, Regions, Resource, Resources, Rings, called};
 
@@ -156,10 +156,8 @@ impl MeshRequest {
         let growth = self.grade.unwrap_or(MeshParams::new(edge_length).growth);
         let sizes = Sizes::new(sizes, density, &own, growth)?;
         let is_uniform = sizes.is_none() && self.grade.is_none();
-        let method_of = |edge_length: f64| self.local_method(is_uniform.then_some(edge_length));
-        let mut method = method_of(edge_length)?;
         let wanted = |edge_length: f64| sizes.as_ref().map(|sizes| move |place: [f64; 2]| sizes.at(place, edge_length));
-        let params_of = |edge_length: f64, method: &Option<LocalMethod>| MeshParams {
+        let params_of = |edge_length: f64| MeshParams {
             growth,
             max_edge_length: match (self.grade, self.max_edge_length) {
                 (None, _) => sizes.as_ref().map(|sizes| sizes.largest(edge_length).max(edge_length)),
@@ -167,7 +165,6 @@ impl MeshRequest {
                 // As far as it grows.
                 (Some(_), None) => Some(edge_length.max(own.area().sqrt())),
             },
-            method: method.clone(),
             is_non_obtuse: self.no_obtuse,
             min_angle_deg: self.min_angle,
             fixed: fixed.clone(),
@@ -176,11 +173,11 @@ impl MeshRequest {
             seed: self.seed,
             ..MeshParams::new(edge_length)
         };
-        params_of(edge_length, &method).validate().map_err(|error| self.named(error))?;
+        params_of(edge_length).validate().map_err(|error| self.named(error))?;
         if let Some(n_triangles) = self.n_triangles {
             for _ in 0..ESTIMATES {
                 let wanted = wanted(edge_length);
-                let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(edge_length, &method) };
+                let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(edge_length) };
                 let expected = expected_triangles(&own, &params).map_err(|error| self.named(error))?;
                 // Where details take most of them, larger triangles elsewhere save little.
                 let before = edge_length;
@@ -190,9 +187,9 @@ impl MeshRequest {
                 }
             }
         }
-        method = method_of(edge_length)?;
+        let method = self.local_method(is_uniform.then_some(edge_length))?;
         let wanted = wanted(edge_length);
-        let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), ..params_of(edge_length, &method) };
+        let params = MeshParams { wanted: wanted.as_ref().map(|wanted| wanted as _), method: method.clone(), ..params_of(edge_length) };
         let (mesh, report) = context.run(|run| mesh(&own, &params, run)).map_err(|error| self.named(error))?;
         notes.extend(report.notes.iter().cloned().map(Message::from));
         if self.grade.is_none() && params.wanted.is_none() && report.outcome != Outcome::Cancelled {
@@ -244,14 +241,12 @@ impl MeshRequest {
 
     /// The method with its parameters; `None` where nothing is said of push-pull: its targets then suit the demands.
     fn local_method(&self, edge_length: Option<f64>) -> Result<Option<LocalMethod>, Error> {
-        let parameters = in_spacings(self.method, &self.parameters, edge_length)?;
-        if self.method != Method::default() || LENGTHS.iter().any(|name| parameters.get(name).is_some()) {
-            return on_meshes(self.method, &parameters, self.seed).map(Some);
-        }
-        if parameters.is_empty() {
+        let is_default = self.method == Method::default() && !LENGTHS.iter().any(|name| self.parameters.get(name).is_some());
+        if is_default && self.parameters.is_empty() {
             return Ok(None);
         }
-        on_meshes(self.method, &MeshParams::usual_targets(self.no_obtuse).overlaid(&parameters), self.seed).map(Some)
+        let usual = if is_default { MeshParams::usual_targets(self.no_obtuse) } else { Settings::default() };
+        on_meshes(self.method, &self.parameters, &usual, edge_length, self.seed).map(Some)
     }
 
     /// The smallest angle that targets imply that were given, in degrees.

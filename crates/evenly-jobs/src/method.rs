@@ -84,36 +84,29 @@ impl Job {
 }
 
 /// What a method is told, with lengths in input units as spacings, which are so long; `None` where they vary.
-///
-/// # Errors
-/// A length for what counts none, or where spacings vary.
-pub(crate) fn in_spacings(method: Method, settings: &Settings, spacing: Option<f64>) -> Result<Settings, Error> {
-    let told = method.in_spacings(settings, spacing.unwrap_or(1.0))?;
+fn in_spacings(method: Method, settings: &Settings, spacing: Option<f64>) -> Result<Settings, Error> {
     let is_relative = |name: &str| method.parameters().iter().any(|(about, _)| about.name == name && about.unit == Unit::Spacings);
-    let is_length = |name: &&str| matches!(settings.get(name), Some(Setting::Length(_))) && is_relative(name);
-    match settings.names().find(is_length).filter(|_| spacing.is_none()) {
-        Some(name) => {
-            let text = format!(
-                " is {}; where spacings vary it must be in spacings",
-                settings.get(name).map_or(String::new(), ToString::to_string)
-            );
-            Err(Message::default().name(name).text(text).into())
+    let lengths = settings.names().filter_map(|name| Some((name, settings.get(name)?)));
+    let mut lengths = lengths.filter(|(name, value)| matches!(value, Setting::Length(_)) && is_relative(name));
+    match (lengths.next(), spacing) {
+        (Some((name, length)), None) => {
+            Err(Message::default().name(name).text(format!(" is {length}; where spacings vary it must be in spacings")).into())
         }
-        None => Ok(told),
+        _ => Ok(method.in_spacings(settings, spacing.unwrap_or(1.0))?),
     }
 }
 
 /// The same error; of a length in input units with what was given, and the spacing that it counts in.
-pub(crate) fn in_units(error: Error, settings: &Settings, spacing: f64) -> Error {
-    match error {
-        Error::Library(evenly::Error::InvalidParameter { name, value, expected }) => match settings.get(name) {
+fn in_units(error: evenly::Error, settings: &Settings, spacing: Option<f64>) -> Error {
+    match (Error::from(error), spacing) {
+        (Error::Library(evenly::Error::InvalidParameter { name, value, expected }), Some(spacing)) => match settings.get(name) {
             Some(length @ Setting::Length(_)) => {
                 let spacings = value.parse::<f64>().map_or(value, |number| format!("{number:.4}"));
                 Error::invalid(name, format!("{length}, which is {spacings} spacings of {spacing:.4e}"), expected)
             }
             _ => Error::invalid(name, value, expected),
         },
-        other => other,
+        (other, _) => other,
     }
 }
 
@@ -134,19 +127,31 @@ pub(crate) fn check_on_meshes(method: Method, settings: &Settings) -> Result<(),
     Ok(())
 }
 
-/// The method with what it is told; `None` for one that makes points.
+/// What a method is told, with lengths as spacings, and the method with it; `None` for one that makes points.
 ///
 /// # Errors
-/// [`Error::NotTaken`] for a parameter of other methods, and as [`Method::optimizer`].
-pub(crate) fn optimizer(job: Job, method: Method, settings: &Settings, seed: u64) -> Result<Option<Box<dyn Optimizer>>, Error> {
-    job.require_taken(settings, &[method])?;
-    Ok(method.optimizer(settings, seed)?)
+/// As [`Job::check`]; a length in input units where spacings vary.
+pub(crate) fn optimizer(
+    method: Method,
+    settings: &Settings,
+    spacing: Option<f64>,
+    seed: u64,
+) -> Result<(Settings, Option<Box<dyn Optimizer>>), Error> {
+    let told = in_spacings(method, settings, spacing)?;
+    let optimizer = method.optimizer(&told, seed).map_err(|error| in_units(error, settings, spacing))?;
+    Ok((told, optimizer))
 }
 
-/// The method with what it is told, for the vertices of a mesh.
-pub(crate) fn on_meshes(method: Method, settings: &Settings, seed: u64) -> Result<LocalMethod, Error> {
-    Job::Mesh.require_taken(settings, &[method])?;
-    Ok(method.on_meshes(settings, seed)?)
+/// The same for the vertices of a mesh, over what else is usual.
+pub(crate) fn on_meshes(
+    method: Method,
+    settings: &Settings,
+    usual: &Settings,
+    spacing: Option<f64>,
+    seed: u64,
+) -> Result<LocalMethod, Error> {
+    let told = usual.clone().overlaid(&in_spacings(method, settings, spacing)?);
+    method.on_meshes(&told, seed).map_err(|error| in_units(error, settings, spacing))
 }
 
 /// Refuses a method that knows no density, where there is one.

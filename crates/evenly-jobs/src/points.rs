@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::given::{density_of, fixed_of, joined, measured_in, positioned};
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, in_spacings, in_units, optimizer, require_beginning, require_density, require_density_of_start};
+use crate::method::{Job, optimizer, require_beginning, require_density, require_density_of_start};
 use crate::resource::{Pixels, Positions, Resource, Resources};
 use crate::space::{Domain, Metric};
 
@@ -169,9 +169,8 @@ impl GenerateRequest {
         let given = fixed_of(self.fixed.as_ref(), &space, resources)?.with_density(&density);
         let (fixed, given) = measured_in(*metric, given)?;
         let spacing = n_points.map_or(f64::NAN, |n| hexagonal_spacing(fixed.space().area(), n as f64));
-        let told = in_spacings(*method, parameters, density.is_uniform().then_some(spacing))?;
-        let optimizer = optimizer(Job::Generate, *method, &told, *seed).map_err(|error| in_units(error, parameters, spacing))?;
-        let parameters = &told;
+        let (parameters, optimizer) = optimizer(*method, parameters, density.is_uniform().then_some(spacing), *seed)?;
+        let parameters = &parameters;
         let is_asked = is_asked(*method, parameters);
         let made = PointsOutcome { points: fixed, given, method: *method, optimizer, report: None, notes, is_asked, is_cancelled: false };
         context.enter(Stage::Start);
@@ -235,9 +234,8 @@ impl OptimizeRequest {
         memory::require_points(points.n_points(), self.method)?;
         let density = density_of(self.density.as_ref(), resources)?;
         let (points, given) = measured_in(self.metric, points.with_density(&density))?;
-        let parameters = in_spacings(self.method, &self.parameters, density.is_uniform().then(|| points.hex_spacing()))?;
-        let optimizer = optimizer(Job::Optimize, self.method, &parameters, self.seed)
-            .map_err(|error| in_units(error, &self.parameters, points.hex_spacing()))?;
+        let spacing = density.is_uniform().then(|| points.hex_spacing());
+        let (_, optimizer) = optimizer(self.method, &self.parameters, spacing, self.seed)?;
         let begin = PointSet::new(points.space(), Vec::new())?;
         let is_asked = is_asked(self.method, &self.parameters);
         let made =
@@ -262,6 +260,8 @@ impl PointsOutcome {
         if let Some(advice) = method_told.targets().and_then(|targets| targets.advice(&points)) {
             context.note(&mut notes, advice.into());
         }
+        // The points that came in are a state to keep.
+        context.enter(Stage::Optimize);
         let report = context.run(|run| method_told.run(&mut points, run))?;
         for note in notes_on(&report) {
             if !notes.contains(&note) {

@@ -14,7 +14,7 @@ use crate::context::{Context, Event, Stage};
 use crate::error::Error;
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, check_on_meshes, in_spacings, on_meshes};
+use crate::method::{Job, check_on_meshes, on_meshes};
 use crate::points::Ending;
 use crate::resource::{Places, Resource, Resources, Triangles};
 use crate::surface::{OrOff, Prepared, Repair, Sizing, number_of, place_attributes};
@@ -184,8 +184,7 @@ impl RemeshRequest {
         memory::require_vertices(n_vertices)?;
         // Two triangles a vertex, about.
         let side = triangle_side(surface.area(), 2.0 * n_vertices as f64);
-        let parameters = in_spacings(self.method, &self.parameters, sizes.is_empty().then_some(side))?;
-        let method = on_meshes(self.method, &parameters, self.seed)?;
+        let method = on_meshes(self.method, &self.parameters, &Settings::default(), sizes.is_empty().then_some(side), self.seed)?;
         let default = if sizes.is_empty() { RemeshParams::default().max_deviation } else { Some(SIZED_DEVIATION) };
         let params = RemeshParams {
             n_vertices,

@@ -9,7 +9,7 @@ use crate::context::{Context, Event, Stage};
 use crate::error::Error;
 use crate::memory;
 use crate::message::Message;
-use crate::method::{Job, POISSON_DISK, WHITE, check_on_meshes, in_spacings, on_meshes};
+use crate::method::{Job, POISSON_DISK, WHITE, check_on_meshes, on_meshes};
 use crate::points::Ending;
 use crate::resource::{Resource, Resources, Triangles};
 use crate::surface::{Prepared, Repair, Sizing, number_of};
@@ -113,12 +113,12 @@ impl SampleRequest {
         let n_points = number_of(&surface, self.n_points, "spacing", self.spacing)?.unwrap_or_default();
         memory::require_vertices(n_points)?;
         let side = triangle_side(surface.area(), 2.0 * n_points as f64);
-        let parameters = in_spacings(self.method, &self.parameters, sizing.is_none().then_some(side))?;
+        let method = || on_meshes(self.method, &self.parameters, &Settings::default(), sizing.is_none().then_some(side), self.seed);
         let sampling = match (self.method.name(), self.spacing) {
             (WHITE, _) => SurfaceSampling::White(n_points),
             (POISSON_DISK, Some(spacing)) => SurfaceSampling::PoissonDisk(spacing),
             (POISSON_DISK, None) => SurfaceSampling::poisson_disk_of(&surface, n_points),
-            _ => SurfaceSampling::Vertices(n_points, on_meshes(self.method, &parameters, self.seed)?),
+            _ => SurfaceSampling::Vertices(n_points, method()?),
         };
         let sizes = sizing.map_or(Ok(Vec::new()), |sizing| surface_sizes(&surface, &sizing, Some(n_points))).map_err(named)?;
         let params = SampleParams { sampling, sizes, seed: self.seed };

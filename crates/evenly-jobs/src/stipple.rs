@@ -189,6 +189,7 @@ impl StippleRequest {
         if self.n_points == 0 {
             return Err(Error::invalid("n_points", 0, "1 or more"));
         }
+        Job::Stipple.check(self.method, &self.parameters)?;
         memory::require_points(self.n_points, self.method)?;
         self.tone.tone()?;
         spread::optimizer(self.method, &self.parameters, self.seed).map(drop)

@@ -40,7 +40,21 @@ fn gallery() -> bool {
     let pictures: [&[&str]; 10] = [
         &["generate", "-n", "10000", "-o", "docs/gallery/points.png"],
         &["generate", "-n", "2500", "--draw", "valence", "-o", "docs/gallery/valence.png"],
-        &["generate", "-n", "600", "--space", "rect", "--size", "3,2", "--draw", "delaunay,points", "-o", "docs/gallery/rectangle.png"],
+        &[
+            "generate",
+            "-n",
+            "600",
+            "--method",
+            "procrustes",
+            "--space",
+            "rect",
+            "--size",
+            "3,2",
+            "--draw",
+            "delaunay,points",
+            "-o",
+            "docs/gallery/rectangle.png",
+        ],
         &["generate", "-n", "4096", "--method", "push-pull", "--draw", "report", "-o", "docs/gallery/report.svg"],
         &[
             "stipple",

@@ -4,7 +4,7 @@ use evenly::{Density, Method, Optimizer, PointSet, Setting, Settings, Space};
 
 use crate::context::{Context, Stage};
 use crate::error::Error;
-use crate::method::{self, Job};
+use crate::method;
 
 /// Passes after which the eye sees no difference any more; targets need not be met for a drawing.
 const PASSES: usize = 60;
@@ -14,12 +14,11 @@ const PASSES: usize = 60;
 /// # Errors
 /// As [`method::optimizer`].
 pub fn optimizer(method: Method, settings: &Settings, seed: u64) -> Result<Option<Box<dyn Optimizer>>, Error> {
-    // Dots follow a density: nowhere are spacings alike.
-    let settings = &method::in_spacings(method, settings, None)?;
     let is_endless = method.parameters().iter().any(|(about, default)| about.name == "iterations" && default.is_none());
     let is_limited = !is_endless || settings.get("iterations").is_some();
     let settings = if is_limited { settings.clone() } else { settings.clone().with("iterations", Setting::Count(PASSES)) };
-    method::optimizer(Job::Stipple, method, &settings, seed)
+    // Dots follow a density: nowhere are spacings alike.
+    Ok(method::optimizer(method, &settings, None, seed)?.1)
 }
 
 /// As many dots as are asked for, spread as a density wants them.
