@@ -90,17 +90,17 @@ fn non_obtuse() {
     }
 }
 
-/// The smallest angle but for those between two edges of the border.
+/// The smallest angle but for those between two edges of the boundary.
 fn least_angle(mesh: &Mesh) -> f64 {
-    let border: HashSet<[usize; 2]> =
-        mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. })).map(|edge| edge.ends).collect();
+    let boundary: HashSet<[usize; 2]> =
+        mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Boundary { .. })).map(|edge| edge.ends).collect();
     let angles = mesh.triangles.iter().enumerate().flat_map(|(t, &[a, b, c])| {
         let corners = [[c, a, b], [a, b, c], [b, c, a]];
-        let border = &border;
+        let boundary = &boundary;
         mesh.angles_deg(t)
             .into_iter()
             .zip(corners)
-            .filter(move |(_, [from, at, to])| !(border.contains(&[*from, *at]) && border.contains(&[*at, *to])))
+            .filter(move |(_, [from, at, to])| !(boundary.contains(&[*from, *at]) && boundary.contains(&[*at, *to])))
             .map(|(angle, _)| angle)
     });
     angles.fold(180.0, f64::min)

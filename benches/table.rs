@@ -78,7 +78,7 @@ fn of_procrustes(is_quick: bool) {
         }
     }
     for width in [1.0, 4.0] {
-        border(width);
+        boundary(width);
     }
     let sizes = if is_quick { &[100_000][..] } else { &[100_000, 1_000_000] };
     for &n in sizes {
@@ -217,28 +217,28 @@ fn quality(n: usize, mode: Mode, is_warped: bool, must: &str) {
     );
 }
 
-fn border(width: f64) {
+fn boundary(width: f64) {
     let space = Rectangle::new([0.0, 0.0], [width, 1.0]).unwrap();
     for (start, is_warped) in [("warped white noise", true), ("white noise", false)] {
         let mut worst = [0.0f64; 5];
         for seed in SEEDS {
             let run = run(white(space, 10_000, seed).unwrap(), Mode::Fast, is_warped);
-            let border = measure(&run.points).unwrap().border.unwrap();
+            let boundary = measure(&run.points).unwrap().boundary.unwrap();
             let found = [
-                border.border_angle_rms_deg,
-                border.interior_angle_rms_deg,
-                100.0 * border.uncovered_fraction,
+                boundary.boundary_angle_rms_deg,
+                boundary.interior_angle_rms_deg,
+                100.0 * boundary.uncovered_fraction,
                 run.report.inverted_triangles as f64,
-                border.isolated_points as f64,
+                boundary.isolated_points as f64,
             ];
             for (worst, found) in worst.iter_mut().zip(found) {
                 *worst = worst.max(found);
             }
         }
-        let [at_border, inside, uncovered, inverted, isolated] = worst;
+        let [at_boundary, inside, uncovered, inverted, isolated] = worst;
         println!(
-            "| Fast mode, rectangle {width}:1, {start}, n = 10000 | border angle rms <= 13, interior <= 12, uncovered <= .1 %, 0 inverted, 0 isolated | \
-             {at_border:.2}, {inside:.2}, {uncovered:.4} %, {inverted}, {isolated} |"
+            "| Fast mode, rectangle {width}:1, {start}, n = 10000 | boundary angle rms <= 13, interior <= 12, uncovered <= .1 %, 0 inverted, 0 isolated | \
+             {at_boundary:.2}, {inside:.2}, {uncovered:.4} %, {inverted}, {isolated} |"
         );
     }
 }

@@ -183,11 +183,11 @@ def sides(triangles):
 
 
 def manifold(m, source, triangles):
-    """Say whether a mesh is a manifold with the input's borders: analyze mends what it measures, so edges are counted here."""
-    border, crowded = sides(triangles)
+    """Say whether a mesh is a manifold with the input's boundaries: analyze mends what it measures, so edges are counted here."""
+    boundary, crowded = sides(triangles)
     was = sides(read(source)[1])[0]
-    if was == 0 and border > 0:
-        return f"no: {crowded} edges with more than two triangles, {border} with one"
+    if was == 0 and boundary > 0:
+        return f"no: {crowded} edges with more than two triangles, {boundary} with one"
     if crowded > 0:
         return f"no: {crowded} edges with more than two triangles"
     return "yes" if m["is_manifold"] else "no"

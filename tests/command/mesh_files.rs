@@ -38,7 +38,7 @@ fn every_format_holds_the_same_mesh() {
     shell.ok("mesh hole.txt --edge-length 0.1 -o m.obj --report m.json");
     let quality = report(&shell, "m.json")["quality"].clone();
     let (n_vertices, n_triangles) = (quality["n_vertices"].as_u64().unwrap(), quality["n_triangles"].as_u64().unwrap());
-    let n_edges = quality["n_border_edges"].as_u64().unwrap();
+    let n_edges = quality["n_boundary_edges"].as_u64().unwrap();
     let count = |name: &str, start: &str| shell.read(name).lines().filter(|line| line.starts_with(start)).count() as u64;
     assert_eq!((count("m.obj", "v "), count("m.obj", "f ")), (n_vertices, n_triangles));
     for format in ["msh", "vtu", "ply", "off", "stl", "geojson", "npz", "svg", "png", "pdf"] {
@@ -49,7 +49,7 @@ fn every_format_holds_the_same_mesh() {
     assert!(String::from_utf8_lossy(&ply).contains(&format!("element vertex {n_vertices}\n")));
     let msh = shell.read("m.msh");
     let elements = n_triangles + n_edges;
-    // Eight segments of the border, a curve each, and the inside.
+    // Eight segments of the boundary, a curve each, and the inside.
     assert!(msh.contains(&format!("$Elements\n9 {elements} 1 {elements}\n")) && msh.contains("$Entities\n0 8 1 0\n"), "{msh}");
     assert!(shell.read("m.vtu").contains(&format!("NumberOfPoints=\"{n_vertices}\" NumberOfCells=\"{elements}\"")));
     assert_eq!(std::fs::read(shell.path("m.stl")).unwrap().len() as u64, 84 + 50 * n_triangles);

@@ -18,7 +18,7 @@ fn analysis_has_every_measure() {
         assert!(!measures[name].is_null(), "{name}");
     }
     let bounded = json(&shell.ok("analyze a.txt --space rect --json --plot a.svg --draw voronoi"));
-    for name in ["border_angle_rms_deg", "interior_angle_rms_deg", "uncovered_fraction", "isolated_points"] {
+    for name in ["boundary_angle_rms_deg", "interior_angle_rms_deg", "uncovered_fraction", "isolated_points"] {
         assert!(bounded[name].is_number(), "{name}");
     }
     assert!(shell.read("a.svg").contains("<path"));

@@ -29,12 +29,12 @@ fn check(polygon: &Polygon, params: &MeshParams) -> Mesh {
     assert!(least_deg(&mesh) >= 25.0, "{:?}: {}", polygon.rings(), least_deg(&mesh));
     let quality = mesh_quality(&mesh);
     assert!((quality.area / polygon.area() - 1.0).abs() < 1e-9);
-    // Each side of a triangle has another triangle across, or lies on the border.
+    // Each side of a triangle has another triangle across, or lies on the boundary.
     let sides: HashSet<[usize; 2]> = mesh.triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]).collect();
     assert_eq!(sides.len(), 3 * mesh.triangles.len());
-    let border = mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. })).map(|edge| edge.ends);
+    let boundary = mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Boundary { .. })).map(|edge| edge.ends);
     let open: HashSet<[usize; 2]> = sides.iter().copied().filter(|&[a, b]| !sides.contains(&[b, a])).collect();
-    assert_eq!(open, border.collect());
+    assert_eq!(open, boundary.collect());
     mesh
 }
 

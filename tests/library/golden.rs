@@ -76,15 +76,15 @@ fn momentum_from_warped_white_noise() {
 }
 
 #[test]
-fn rectangles_are_covered_to_the_border() {
+fn rectangles_are_covered_to_the_boundary() {
     for (width, is_warped) in [(1.0, true), (4.0, true), (1.0, false), (4.0, false)] {
         for seed in SEEDS {
             let (m, report) = run(rectangle(width), 10_000, seed, Mode::Fast, is_warped);
-            let border = m.border.as_ref().unwrap();
-            let case = format!("{width}, {is_warped}, {seed}: {border:?}");
-            assert!(border.border_angle_rms_deg <= 13.0 && border.interior_angle_rms_deg <= 12.0, "{case}");
-            assert!(border.uncovered_fraction <= 1e-3, "{case}");
-            assert_eq!((report.inverted_triangles, border.isolated_points), (0, 0), "{case}");
+            let boundary = m.boundary.as_ref().unwrap();
+            let case = format!("{width}, {is_warped}, {seed}: {boundary:?}");
+            assert!(boundary.boundary_angle_rms_deg <= 13.0 && boundary.interior_angle_rms_deg <= 12.0, "{case}");
+            assert!(boundary.uncovered_fraction <= 1e-3, "{case}");
+            assert_eq!((report.inverted_triangles, boundary.isolated_points), (0, 0), "{case}");
         }
     }
 }

@@ -268,7 +268,7 @@ fn hard_sets() -> Vec<(&'static str, Vec<[f64; 2]>)> {
         ("a grid", grid(20)),
         ("a small grid", grid(2)),
         ("a row", (0..50).map(|i| [i as f64 / 50.0, 0.5]).collect()),
-        ("a column on the border", (0..50).map(|i| [0.0, i as f64 / 50.0]).collect()),
+        ("a column on the boundary", (0..50).map(|i| [0.0, i as f64 / 50.0]).collect()),
         ("a diagonal", (0..50).map(|i| [i as f64 / 64.0; 2]).collect()),
         ("one place", vec![[0.3, 0.7]; 40]),
         ("the corner", vec![[0.0, 0.0]; 40]),

@@ -23,7 +23,7 @@ fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     (ax - bx).hypot(ay - by)
 }
 
-/// That the triangles cover the polygon, upright and edge to edge, and that all of its border is there.
+/// That the triangles cover the polygon, upright and edge to edge, and that all of its boundary is there.
 fn prove(polygon: &Polygon, mesh: &Mesh) -> Result<(), TestCaseError> {
     let quality = mesh_quality(mesh);
     prop_assert!((quality.area / polygon.area() - 1.0).abs() < 1e-9, "{} of {}", quality.area, polygon.area());
@@ -35,17 +35,17 @@ fn prove(polygon: &Polygon, mesh: &Mesh) -> Result<(), TestCaseError> {
         }
     }
     prop_assert!(directed.values().all(|&n| n == 1));
-    // A side without another triangle is an edge of the border, and the other way round.
+    // A side without another triangle is an edge of the boundary, and the other way round.
     let alone = directed.keys().filter(|&&[a, b]| !directed.contains_key(&[b, a])).count();
-    let border = || mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. }));
-    prop_assert_eq!(alone, border().count());
-    prop_assert!(border().all(|edge| directed.contains_key(&edge.ends) && !directed.contains_key(&[edge.ends[1], edge.ends[0]])));
-    // Each segment of the border is divided from its start to its end.
+    let boundary = || mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Boundary { .. }));
+    prop_assert_eq!(alone, boundary().count());
+    prop_assert!(boundary().all(|edge| directed.contains_key(&edge.ends) && !directed.contains_key(&[edge.ends[1], edge.ends[0]])));
+    // Each segment of the boundary is divided from its start to its end.
     let segments: Vec<[[f64; 2]; 2]> =
         polygon.rings().iter().flat_map(|ring| (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]])).collect();
     let mut edges: Vec<Vec<[[f64; 2]; 2]>> = vec![Vec::new(); segments.len()];
     for &MeshEdge { ends, kind } in &mesh.edges {
-        if let EdgeKind::Border { segment } = kind {
+        if let EdgeKind::Boundary { segment } = kind {
             edges[segment].push(ends.map(|v| mesh.vertices[v]));
         }
     }
@@ -99,7 +99,7 @@ proptest! {
 }
 
 #[test]
-fn plain_domains_have_well_spaced_points_up_to_the_border() {
+fn plain_domains_have_well_spaced_points_up_to_the_boundary() {
     for rings in [l_shape(), holed_square()] {
         for spacing in [0.0404, 0.0202] {
             for seed in 0..3 {
@@ -174,7 +174,7 @@ fn no_triangle_is_obtuse_along_finely_divided_holes() {
 }
 
 #[test]
-fn detailed_borders_are_followed_with_good_angles() {
+fn detailed_boundaries_are_followed_with_good_angles() {
     for (rings, least) in [(circle(1000), 35.0), (comb(10, 0.4), 32.0), (passage(1e-3), 25.0), (slit(1e-9), 41.0)] {
         let polygon = polygon(rings);
         let mesh = meshed(&polygon, &MeshParams::new(0.05));
@@ -220,7 +220,7 @@ fn every_method_keeps_the_wanted_lengths() {
 }
 
 #[test]
-fn a_large_border_is_meshed() {
+fn a_large_boundary_is_meshed() {
     let polygon = polygon(star(5000, 0.999));
     let mesh = meshed(&polygon, &MeshParams { growth: 1.0, ..MeshParams::new(0.5) });
     prove(&polygon, &mesh).unwrap();
@@ -268,7 +268,7 @@ fn lines_may_overlap_and_touch() {
 }
 
 #[test]
-fn lines_are_split_where_they_cross_and_clipped_at_the_border() {
+fn lines_are_split_where_they_cross_and_clipped_at_the_boundary() {
     let polygon = polygon(l_shape());
     // A cross, a ring, one across the notch, one from far outside, and one that is outside.
     let lines = vec![
@@ -305,7 +305,7 @@ fn many_lines_are_no_trouble() {
 }
 
 #[test]
-fn the_spacing_may_grow_away_from_the_border_or_be_given() {
+fn the_spacing_may_grow_away_from_the_boundary_or_be_given() {
     let square = polygon(vec![rectangle([0.0, 0.0], [1.0, 1.0])]);
     let even = meshed(&square, &MeshParams::new(0.02));
     let graded = meshed(&square, &MeshParams { max_edge_length: Some(0.2), growth: 0.2, ..MeshParams::new(0.02) });
@@ -395,7 +395,7 @@ fn what_can_be_repaired_is_and_is_told() {
     assert_eq!(repaired.area(), 15.0);
     let told = repaired.repairs().join("; ");
     assert!(told.contains("spike") && told.contains("twice") && told.contains("wrong way"), "{told}");
-    // Two parts that share a side are one; holes may touch the border in a point.
+    // Two parts that share a side are one; holes may touch the boundary in a point.
     let parts = vec![vec![rectangle([0.0, 0.0], [1.0, 1.0])], vec![rectangle([1.0, 0.0], [1.0, 1.0])]];
     let joined = Polygon::new(parts).unwrap();
     assert_eq!((joined.area(), joined.rings().len()), (2.0, 1));

@@ -1,4 +1,4 @@
-//! Points in polygons: laws that hold for every method, whatever the border.
+//! Points in polygons: laws that hold for every method, whatever the boundary.
 
 use crate::methods;
 use crate::shapes;
@@ -92,7 +92,7 @@ fn a_maximal_set_is_one_as_far_as_can_be_seen() {
         let params = PoissonDiskParams { seed: 5, is_visible: true, ..PoissonDiskParams::for_about(&space, 800) };
         let measures = measure(&poisson_disk(&space, &params).unwrap()).unwrap();
         let spacing = params.spacing / measures.hex_spacing;
-        let distance = measures.border.as_ref().unwrap().min_distance_visible.unwrap();
+        let distance = measures.boundary.as_ref().unwrap().min_distance_visible.unwrap();
         assert!(distance >= spacing * (1.0 - 1e-9) && measures.coverage_radius <= leeway * spacing, "{space}: {measures:?}");
     }
 }
@@ -110,7 +110,7 @@ fn poisson_disks_keep_their_distance_across_walls() {
         let nearest = pairs.fold(f64::INFINITY, f64::min);
         let measures = measure(&points).unwrap();
         assert!(nearest >= spacing && (measures.min_distance * measures.hex_spacing / nearest - 1.0).abs() < 1e-9, "{space}: {nearest}");
-        assert!(measures.border.unwrap().min_distance_visible.unwrap() >= measures.min_distance);
+        assert!(measures.boundary.unwrap().min_distance_visible.unwrap() >= measures.min_distance);
         // Each place is covered, by a point that it need not see.
         let white = white(&space, 3000, 1).unwrap();
         let covered = |q: &[f64; 2]| p.iter().any(|p| (p[0] - q[0]).hypot(p[1] - q[1]) <= spacing * (1.0 + 1e-9));
@@ -155,7 +155,7 @@ fn nothing_is_seen_across_a_slit() {
     ]]);
     let points = PointSet::new(&rooms, vec![[0.49, 0.9], [0.51, 0.9], [0.2, 0.3], [0.8, 0.3]]).unwrap();
     let measures = measure(&points).unwrap();
-    let seen = measures.border.as_ref().and_then(|border| border.min_distance_visible).unwrap();
+    let seen = measures.boundary.as_ref().and_then(|boundary| boundary.min_distance_visible).unwrap();
     assert!(seen * measures.hex_spacing > 0.5, "{measures:?}");
     assert!((measures.min_distance * measures.hex_spacing - 0.02).abs() < 1e-9, "{measures:?}");
     let cells = tessellate(&points).unwrap().cells;

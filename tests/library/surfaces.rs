@@ -76,7 +76,7 @@ fn smooth_closed_shapes_converge_to_what_the_paper_has() {
 }
 
 #[test]
-fn creases_corners_and_borders_are_kept() {
+fn creases_corners_and_boundaries_are_kept() {
     // Of a cube each edge has vertices, and the corners are among them.
     let surface = Surface::new(&cube(3)).unwrap();
     let (made, _) = remeshed(&surface, 900, 5);
@@ -88,13 +88,13 @@ fn creases_corners_and_borders_are_kept() {
     let quality = surface_quality(&Surface::new(&made.mesh).unwrap());
     assert!((quality.area - 6.0).abs() < 1e-9, "{}", quality.area);
 
-    // Of a patch the border.
+    // Of a patch the boundary.
     let mesh = patch(20);
     let surface = Surface::new(&mesh).unwrap();
     let (made, _) = remeshed(&surface, 500, 5);
-    let is_on_border = |p: &[f64; 3]| p[..2].iter().any(|&x| x.abs() < 1e-9 || (x - 1.0).abs() < 1e-9);
-    let n_border = made.mesh.vertices.iter().filter(|p| is_on_border(p)).count();
-    assert_eq!(n_border, Surface::new(&made.mesh).unwrap().n_border_edges());
+    let is_on_boundary = |p: &[f64; 3]| p[..2].iter().any(|&x| x.abs() < 1e-9 || (x - 1.0).abs() < 1e-9);
+    let n_boundary = made.mesh.vertices.iter().filter(|p| is_on_boundary(p)).count();
+    assert_eq!(n_boundary, Surface::new(&made.mesh).unwrap().n_boundary_edges());
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn a_mesh_of_given_points_has_these_vertices() {
             assert_eq!((made.n_vertices(), given.len()), (n, n), "{name}");
             assert_eq!(made.euler_characteristic(), surface.euler_characteristic(), "{name}");
             assert_eq!(made.n_components(), surface.n_components(), "{name}");
-            // A border has its own, and some are in the way where the points are too sparse for the shape.
+            // A boundary has its own, and some are in the way where the points are too sparse for the shape.
             let most = if made.is_closed() { n / 20 } else { n / 4 };
             assert!(n_own <= most, "{name}: {n_own} of {n}");
         }
@@ -202,7 +202,7 @@ fn given_points_are_a_start_as_good_as_another() {
         assert_eq!((report.outcome, made.mesh.vertices.len()), (Outcome::Converged, n_points));
         assert_eq!(surface_quality(&Surface::new(&made.mesh).unwrap()).obtuse_triangles, 0);
     }
-    // On a border the given points stay, whatever their gaps.
+    // On a boundary the given points stay, whatever their gaps.
     let square = Surface::new(&patch(1)).unwrap();
     let grid: Vec<[f64; 3]> = (0..121).map(|k| [f64::from(k / 11) / 10.0, f64::from(k % 11) / 10.0, 0.0]).collect();
     let params = RemeshParams { n_vertices: 121, method: staying(), points: grid, ..RemeshParams::default() };
@@ -417,13 +417,13 @@ fn near_corners_are_told_and_welded() {
     soup.triangles = (0..whole.triangles.len()).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     let open = Surface::new(&soup).unwrap();
     assert_eq!(open.n_components(), whole.triangles.len());
-    let (n, distance) = open.near_borders().unwrap();
+    let (n, distance) = open.near_boundaries().unwrap();
     assert!(n == soup.vertices.len() && distance < 4e-7, "{n} {distance}");
     let (welded, _) = soup.welded(1e-6);
     let surface = Surface::new(&welded).unwrap();
     assert!(surface.is_closed() && surface.n_vertices() == whole.vertices.len());
-    assert_eq!(surface.near_borders(), None);
-    assert_eq!(Surface::new(&patch(20)).unwrap().near_borders(), None);
+    assert_eq!(surface.near_boundaries(), None);
+    assert_eq!(Surface::new(&patch(20)).unwrap().near_boundaries(), None);
     // Points need no mesh that hangs together, nor one of the surface's genus.
     let handles = Surface::new(&genus_3()).unwrap();
     for (surface, n) in [&open, &handles].into_iter().flat_map(|surface| [1, 2, 10, 300].map(|n| (surface, n))) {

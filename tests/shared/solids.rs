@@ -146,7 +146,7 @@ pub fn touching_spheres() -> TriangleMesh {
     mesh(vertices, one.triangles.iter().copied().chain(shifted).collect())
 }
 
-/// A wavy square with a border.
+/// A wavy square with a boundary.
 pub fn patch(n: usize) -> TriangleMesh {
     let at = |i: usize, j: usize| i * (n + 1) + j;
     let place = |k: usize| {

@@ -48,7 +48,7 @@ pub struct Mesh {
     /// How far off flattened curves of an SVG may be, in its units [default: a thousandth of its size]
     #[arg(long, value_name = "T", value_parser = parse_length, allow_negative_numbers = true, help_heading = "Constraints")]
     pub curve_tolerance: Option<f64>,
-    /// The vertices' Voronoi cells, clipped at the border, as .geojson
+    /// The vertices' Voronoi cells, clipped at the boundary, as .geojson
     #[arg(long, value_name = "OUT", help_heading = "Output")]
     pub cells: Option<PathBuf>,
     /// Write the run's whole record, as JSON
@@ -65,24 +65,24 @@ pub struct Mesh {
 #[derive(Args)]
 #[command(group = ArgGroup::new("size").required(true).args(["edge_length", "n_triangles"]))]
 pub struct MeshWishes {
-    /// The wanted length of edges, in the polygon's units; shorter where the border is detailed or the domain narrow
+    /// The wanted length of edges, in the polygon's units; shorter where the boundary is detailed or the domain narrow
     #[arg(long, value_name = "H", value_parser = parse_length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
-    /// About how many triangles, instead; there are more where the border is detailed
+    /// About how many triangles, instead; there are more where the boundary is detailed
     #[arg(short, long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub n_triangles: Option<usize>,
-    /// Fewer corners first: no place of the border goes farther than this, in the polygon's units; rings and areas stay
+    /// Fewer corners first: no place of the boundary goes farther than this, in the polygon's units; rings and areas stay
     #[arg(long, value_name = "TOL", value_parser = parse_length, allow_negative_numbers = true)]
     pub simplify: Option<f64>,
     /// The same seed gives the same mesh
     #[arg(short, long, value_name = "SEED", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
-    /// How points find their places: on the border they move along it
+    /// How points find their places: on the boundary they move along it
     #[arg(short, long, default_value_t = Method::default(), value_parser = parser::<OnMeshes>(), help_heading = "Method")]
     pub method: Method,
     #[command(flatten)]
     pub method_args: MethodArgs<OnMeshes>,
-    /// Let edges grow away from the border, by so much a length: 0.2 is gentle, 1 the most
+    /// Let edges grow away from the boundary, by so much a length: 0.2 is gentle, 1 the most
     #[arg(long, value_name = "G", allow_negative_numbers = true, help_heading = "Size")]
     pub grade: Option<f64>,
     /// The longest edges wanted, where they grow [default: no limit with --grade]

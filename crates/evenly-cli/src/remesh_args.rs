@@ -75,7 +75,7 @@ pub struct RemeshWishes {
     /// says how many. lfs: in proportion to the local feature size. linear:z,4: four times as long at the high end of z. attr and files: wanted lengths, in proportion.
     #[arg(long, value_name = "HOW", help_heading = "Size")]
     pub density: Option<String>,
-    /// Creases that turn by more than this are kept, and tips; borders are in any case; off for borders alone
+    /// Creases that turn by more than this are kept, and tips; boundaries are in any case; off for boundaries alone
     ///
     /// A crease is kept if it turns twelve times as much as what is around it, or by more than 75 degrees; all that hangs together, if it is longer than four spacings. Tips are
     /// let go where the targets cannot be met otherwise.

@@ -21,7 +21,7 @@ use crate::{Error, Target, render};
 /// A format of meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeshFormat {
-    /// Gmsh 4.1, as text; border segments and lines are physical groups.
+    /// Gmsh 4.1, as text; boundary segments and lines are physical groups.
     Msh,
     /// VTK's unstructured grid, as text.
     Vtu,

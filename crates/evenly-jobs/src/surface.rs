@@ -156,7 +156,7 @@ fn welded(mesh: TriangleMesh, tolerance: Option<f64>, notes: &mut Vec<Message>) 
 
 /// What was done to a surface, and what else there is to say of it.
 fn notes_on(surface: &Surface) -> Vec<Message> {
-    let seams = surface.near_borders().map(|(n, distance)| {
+    let seams = surface.near_boundaries().map(|(n, distance)| {
         let near = Message::from(format!("{n} boundary vertices lie within {distance:.1e} of another one; if they should be one, "));
         near.setting("weld", format!("{:.0e}", 10.0 * distance)).text(" joins them")
     });

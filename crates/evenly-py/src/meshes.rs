@@ -12,10 +12,10 @@ use crate::arrays::{Integers, Rows, indices, rows};
 /// What lies between two regions.
 const BETWEEN: i64 = i64::MIN;
 
-/// A segment of the border as 0, 1, ..., a line as -1, -2, ...
+/// A segment of the boundary as 0, 1, ..., a line as -1, -2, ...
 pub fn tag(edge: &MeshEdge) -> i64 {
     match edge.kind {
-        EdgeKind::Border { segment } => segment as i64,
+        EdgeKind::Boundary { segment } => segment as i64,
         EdgeKind::Line { line } => -1 - line as i64,
         EdgeKind::Between => BETWEEN,
     }
@@ -38,7 +38,7 @@ pub struct Parts<'py> {
 impl Parts<'_> {
     fn mesh(&self) -> PyResult<Mesh> {
         let kind = |tag: i64| match usize::try_from(tag) {
-            Ok(segment) => EdgeKind::Border { segment },
+            Ok(segment) => EdgeKind::Boundary { segment },
             Err(_) if tag == BETWEEN => EdgeKind::Between,
             Err(_) => EdgeKind::Line { line: (-1 - tag) as usize },
         };

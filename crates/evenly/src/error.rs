@@ -87,7 +87,7 @@ pub enum Error {
     /// More points than the indices can hold.
     #[error("{0} points are too many; at most {1} are possible")]
     TooManyPoints(usize, usize),
-    /// A border that encloses no domain, or leaves in doubt which.
+    /// A boundary that encloses no domain, or leaves in doubt which.
     #[error("the polygon {problem}, at ({}, {})", at[0], at[1])]
     InvalidPolygon {
         /// What is wrong with it.

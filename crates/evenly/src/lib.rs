@@ -47,7 +47,7 @@ pub use imaging::{
     subsampled_bilateral, zone_plate,
 };
 pub use measure::{
-    BorderMeasures, Measures, PointMeasures, PowerSpectrum, RadialSpectrum, SizeErrors, Tessellation, differential_spectrum,
+    BoundaryMeasures, Measures, PointMeasures, PowerSpectrum, RadialSpectrum, SizeErrors, Tessellation, differential_spectrum,
     local_spacings, measure, measure_each, power_spectrum, radial_spectrum, tessellate,
 };
 pub use mesh::{EdgeKind, Mesh, MeshEdge, MeshParams, MeshQuality, MeshRegion, expected_triangles, mesh, mesh_cells, mesh_quality};

@@ -54,7 +54,7 @@ pub(crate) struct Star {
     pub scratch: Vec<f64>,
     /// The lengths of the Voronoi edges across the spokes, as [`Self::measure_cell`] has found them.
     pub sides: Vec<f64>,
-    /// By how much more than others its cell's area may be off, where it lies at a ragged border.
+    /// By how much more than others its cell's area may be off, where it lies at a ragged boundary.
     pub leeway: f64,
     /// The share of its targets by which it may miss them, where what cannot move has kept it from rest for long.
     pub slack: f64,
@@ -71,7 +71,7 @@ pub(crate) struct Senses {
     pub radii: Option<f64>,
     pub mass: bool,
     pub centroid: bool,
-    /// Whether cells of a mesh end at its border, with the vertex' own image behind it. Otherwise triangles count as they are.
+    /// Whether cells of a mesh end at its boundary, with the vertex' own image behind it. Otherwise triangles count as they are.
     pub echoes: bool,
 }
 

@@ -23,7 +23,7 @@ const SEGMENT: usize = 3;
 /// Fewer points have no tour that is worth a search.
 const FEWEST: usize = 8;
 
-/// The order in which a pen visits all points on a short way. It crosses no border, not that of a torus either.
+/// The order in which a pen visits all points on a short way. It crosses no boundary, not that of a torus either.
 /// After an interrupt the way is as short as it has become.
 ///
 /// # Example

@@ -211,14 +211,14 @@ fn in_polygons_masses_and_distances_are_those_that_points_see() {
                 deviations.push(mass - 1.0);
                 distances.extend(nearest.is_finite().then_some(nearest));
             }
-            // Neighbours count whatever stands between them: those of the cells that no border cuts.
+            // Neighbours count whatever stands between them: those of the cells that no boundary cuts.
             let all_around = Plane { origin: low - 1e4, size: DVec2::splat(2e4), is_periodic: false };
             let neighbours =
                 (0..n).flat_map(|k| all_around.cell(&points, k).into_iter().filter_map(move |(_, side)| side.map(|(other, _)| (k, other))));
             let least = neighbours.map(|(k, other)| picture.length(points[k], points[other])).fold(f64::INFINITY, f64::min) / spacing;
             assert_near(all.min_distance, least, 1e-8, &case);
             assert_near(
-                all.border.unwrap().min_distance_visible.unwrap(),
+                all.boundary.unwrap().min_distance_visible.unwrap(),
                 distances.iter().copied().fold(f64::INFINITY, f64::min),
                 1e-8,
                 &case,

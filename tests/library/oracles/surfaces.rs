@@ -281,7 +281,7 @@ fn platonic_solids_have_the_quality_that_is_known() {
         let q = surface_quality(&Surface::new(&TriangleMesh { vertices: vertices.clone(), triangles, attributes: Vec::new() }).unwrap());
         let case = format!("{n} vertices");
         assert_eq!(
-            (q.n_vertices, q.n_triangles, q.n_components, q.n_border_edges, q.euler_characteristic),
+            (q.n_vertices, q.n_triangles, q.n_components, q.n_boundary_edges, q.euler_characteristic),
             (n, n_triangles, 1, 0, 2),
             "{case}"
         );

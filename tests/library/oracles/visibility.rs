@@ -223,7 +223,7 @@ fn distances_are_those_of_pairs_that_see_each_other() {
         assert_near(all.min_distance, least, 1e-9, &case);
         assert_near(all.mean_distance, seeing.iter().sum::<f64>() / seeing.len() as f64, 1e-9, &case);
         let least = seeing.into_iter().fold(f64::INFINITY, f64::min);
-        assert_near(all.border.unwrap().min_distance_visible.unwrap(), least, 1e-9, &case);
+        assert_near(all.boundary.unwrap().min_distance_visible.unwrap(), least, 1e-9, &case);
         for (k, (point, nearest)) in each.iter().zip(nearest).enumerate() {
             assert!(point.nearest == nearest || (point.nearest - nearest).abs() < 1e-9, "{case}, {k}: {} {nearest}", point.nearest);
         }

@@ -143,9 +143,9 @@ fn summarize(name: &str, record: &MeshRecord, told: &[String]) {
         return;
     };
     let &MeshQuality { n_vertices, n_triangles, min_angle_deg, max_angle_deg, mean_min_angle_deg, obtuse_triangles, .. } = quality;
-    let &MeshQuality { radius_edge, beta, triangle_quality, min_edge, max_edge, n_border_edges, .. } = quality;
+    let &MeshQuality { radius_edge, beta, triangle_quality, min_edge, max_edge, n_boundary_edges, .. } = quality;
     say(format_args!(
-        "{name}: {n_triangles} triangles, {n_vertices} vertices, {n_border_edges} edges on the border, seed {}, {:.2} s",
+        "{name}: {n_triangles} triangles, {n_vertices} vertices, {n_boundary_edges} edges on the boundary, seed {}, {:.2} s",
         record.seed, record.seconds
     ));
     say(format_args!(

@@ -143,12 +143,12 @@ fn summarize(name: &str, record: &RemeshRecord, told: &[String]) {
         ));
         return;
     };
-    let &SurfaceQuality { n_vertices, n_triangles, euler_characteristic, n_border_edges, .. } = quality;
+    let &SurfaceQuality { n_vertices, n_triangles, euler_characteristic, n_boundary_edges, .. } = quality;
     let &SurfaceQuality { min_angle_deg, max_angle_deg, mean_min_angle_deg, obtuse_triangles, .. } = quality;
     let &SurfaceQuality { min_quality, mean_quality, valence_567_fraction, beta, .. } = quality;
-    let border = if n_border_edges > 0 { format!(", {n_border_edges} edges on the border") } else { String::new() };
+    let boundary = if n_boundary_edges > 0 { format!(", {n_boundary_edges} edges on the boundary") } else { String::new() };
     say(format_args!(
-        "{name}: {n_vertices} vertices, {n_triangles} triangles, Euler characteristic {euler_characteristic}{border}, seed {}, {} passes, {:.2} s",
+        "{name}: {n_vertices} vertices, {n_triangles} triangles, Euler characteristic {euler_characteristic}{boundary}, seed {}, {} passes, {:.2} s",
         record.seed, record.run.iterations, record.seconds
     ));
     say(format_args!(

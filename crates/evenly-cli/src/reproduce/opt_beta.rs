@@ -314,7 +314,7 @@ fn figure_11(lab: &Lab) -> anyhow::Result<Part> {
 
 fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     let mut part = Part::new(
-        "Statistics of bounded meshes, coarse (r_MPS = 0.0314) and fine (0.0157). Ours are of an L-shape of size 1, not convex as the paper's domain, with corners kept and points on the border.",
+        "Statistics of bounded meshes, coarse (r_MPS = 0.0314) and fine (0.0157). Ours are of an L-shape of size 1, not convex as the paper's domain, with corners kept and points on the boundary.",
     );
     let printed: [[(&str, [f64; 5]); 5]; 2] = [
         [
@@ -348,7 +348,7 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
             let m = measure(&lab.run_on(Space::from(&l_shape), &recipe, n, SEED)?.points)?;
             let by_start = |length: f64| length * m.hex_spacing / radius;
             let ours = [m.beta, by_start(m.coverage_radius), by_start(m.min_distance), m.min_angle_deg, m.max_angle_deg];
-            table.row(format!("{} (not on the border), r_MPS = {radius}", recipe.name), &ours, paper(recipe.name));
+            table.row(format!("{} (not on the boundary), r_MPS = {radius}", recipe.name), &ours, paper(recipe.name));
         }
         let spacing = radius * hexagonal_spacing(1.0, POINTS_A_DISK);
         for (name, method) in &methods {
@@ -361,7 +361,7 @@ fn table_1(lab: &Lab) -> anyhow::Result<Part> {
     }
     part.remark(
         "Meshes have points added and removed where triangles would be bad, and their last bad triangles polished, whatever the method: so their angles are better than the paper's. Maximal and farthest-point \
-         sets keep off the border, and what they triangulate ends at their own hull.",
+         sets keep off the boundary, and what they triangulate ends at their own hull.",
     );
     Ok(part)
 }

@@ -27,7 +27,7 @@ impl Tessellated {
 
 /// The longer side of the drawing, in its own units.
 const SIDE: f64 = 800.0;
-/// Blank space around a bounded domain, so that points on its border are seen whole. A torus has none: its picture tiles the plane.
+/// Blank space around a bounded domain, so that points on its boundary are seen whole. A torus has none: its picture tiles the plane.
 const MARGIN: f64 = 8.0;
 /// Colours of cells by area, from half the mean to one and a half: dark to light, blue to yellow, told apart by the colour-blind and in grey.
 const AREAS: [&str; 9] = ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#fee838"];
@@ -42,7 +42,7 @@ pub(super) fn map(points: &PointSet, layers: &[Draw], most: usize, known: &Tesse
     let canvas = Canvas::new(points, most);
     let mut svg = String::new();
     if let Some(region) = points.space().region() {
-        canvas.border(&mut svg, region.rings());
+        canvas.boundary(&mut svg, region.rings());
     }
     let tessellation = if layers.iter().any(|&layer| layer != Draw::Points) { Some(known.of(points)?) } else { None };
     for layer in layers {
@@ -115,8 +115,8 @@ impl Canvas {
         }
     }
 
-    /// The border of a polygon.
-    fn border(&self, svg: &mut String, rings: &[Vec<[f64; 2]>]) {
+    /// The boundary of a polygon.
+    fn boundary(&self, svg: &mut String, rings: &[Vec<[f64; 2]>]) {
         svg.push_str("<path fill=\"none\" stroke=\"#888888\" stroke-width=\"0.5\" stroke-linejoin=\"round\" d=\"");
         rings.iter().for_each(|ring| self.outline(svg, ring, [0.0; 2]));
         svg.push_str("\"/>\n");

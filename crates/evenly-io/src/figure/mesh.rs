@@ -1,4 +1,4 @@
-//! A mesh, drawn: its triangles, its border, and what is wrong with it.
+//! A mesh, drawn: its triangles, its boundary, and what is wrong with it.
 
 use std::fmt::Write as _;
 
@@ -45,13 +45,13 @@ pub(crate) fn mesh_figure(mesh: &Mesh, recipe: &str) -> String {
             Short(width)
         );
     }
-    let mut border = String::new();
+    let mut boundary = String::new();
     for edge in &mesh.edges {
-        let _ = write!(border, "M{}L{}", place(edge.ends[0]), place(edge.ends[1]));
+        let _ = write!(boundary, "M{}L{}", place(edge.ends[0]), place(edge.ends[1]));
     }
     let _ = writeln!(
         body,
-        "<path d=\"{border}\" fill=\"none\" stroke=\"#000000\" stroke-width=\"{}\" stroke-linecap=\"round\"/>",
+        "<path d=\"{boundary}\" fill=\"none\" stroke=\"#000000\" stroke-width=\"{}\" stroke-linecap=\"round\"/>",
         Short(3.0 * width)
     );
     drawing(size, recipe, &body)

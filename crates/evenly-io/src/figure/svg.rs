@@ -44,7 +44,7 @@ pub(crate) fn sheet(size_mm: [f64; 2], recipe: &str, body: &str) -> String {
     )
 }
 
-/// A part of a drawing with units of its own, which ends at its border.
+/// A part of a drawing with units of its own, which ends at its boundary.
 pub(super) fn inset(place: [f64; 2], size: [f64; 2], units: [f64; 2], body: &str) -> String {
     let ([x, y], [width, height], [w, h]) = (place.map(Short), size.map(Short), units.map(Short));
     format!("<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\">\n{body}</svg>\n")

@@ -11,10 +11,10 @@ const TAKEN: [&str; 8] = ["x", "y", "z", "vertices", "triangles", "edges", "edge
 pub(crate) struct Cells<'a> {
     pub vertices: Cow<'a, [[f64; 3]]>,
     pub triangles: &'a [[usize; 3]],
-    /// Edges of the border, of lines and between regions, after their tags: of the border 1 and up, of lines
+    /// Edges of the boundary, of lines and between regions, after their tags: of the boundary 1 and up, of lines
     /// after that, and one for all between regions.
     pub edges: Vec<(usize, [usize; 2])>,
-    /// The last tag of the border, and that of edges between regions.
+    /// The last tag of the boundary, and that of edges between regions.
     pub n_segments: usize,
     pub between: usize,
     /// The region of each triangle, where there are any, and their names.
@@ -27,7 +27,7 @@ pub(crate) struct Cells<'a> {
 impl<'a> From<&'a Mesh> for Cells<'a> {
     fn from(mesh: &'a Mesh) -> Self {
         let segments = mesh.edges.iter().filter_map(|edge| match edge.kind {
-            EdgeKind::Border { segment } => Some(segment + 1),
+            EdgeKind::Boundary { segment } => Some(segment + 1),
             EdgeKind::Line { .. } | EdgeKind::Between => None,
         });
         let lines = mesh.edges.iter().filter_map(|edge| if let EdgeKind::Line { line } = edge.kind { Some(line + 1) } else { None });
@@ -35,7 +35,7 @@ impl<'a> From<&'a Mesh> for Cells<'a> {
         let n_segments = segments.max().unwrap_or(0);
         let between = n_segments + n_lines + 1;
         let tag = |kind| match kind {
-            EdgeKind::Border { segment } => segment + 1,
+            EdgeKind::Boundary { segment } => segment + 1,
             EdgeKind::Line { line } => n_segments + line + 1,
             EdgeKind::Between => between,
         };

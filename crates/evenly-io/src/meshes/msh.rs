@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use super::cells::Cells;
 use super::plain::{push_position, push_row};
 
-/// The physical groups: the inside, the border, the lines. Regions have the numbers after them, of their
+/// The physical groups: the inside, the boundary, the lines. Regions have the numbers after them, of their
 /// triangles and of the edges around them.
-const GROUPS: [(usize, usize, &str); 3] = [(2, 1, "domain"), (1, 1, "border"), (1, 2, "lines")];
+const GROUPS: [(usize, usize, &str); 3] = [(2, 1, "domain"), (1, 1, "boundary"), (1, 2, "lines")];
 const FIRST_REGION: usize = 3;
 
 /// An entity: what it is made of, and its physical groups.
@@ -18,7 +18,7 @@ struct Entity<const N: usize> {
 }
 
 /// Nodes that no element needs do not exist here, so the first surface entity holds them all. Each segment of
-/// the border, and each line, is a curve entity of its own, between two regions as many as there are pairs;
+/// the boundary, and each line, is a curve entity of its own, between two regions as many as there are pairs;
 /// each region is a surface.
 pub(super) fn msh(cells: &Cells, recipe: &str) -> String {
     let surfaces = surfaces(cells);
@@ -39,11 +39,11 @@ pub(super) fn msh(cells: &Cells, recipe: &str) -> String {
     for (tag, Entity { elements, groups }) in (1..).zip(&curves) {
         let _ = writeln!(text, "{tag} {} {} 0", bounds(cells, &mut elements.iter().flatten().copied()), listed(groups));
     }
-    let border: Vec<usize> = (1..).zip(&curves).filter(|(_, curve)| curve.groups.contains(&1)).map(|(tag, _)| tag).collect();
+    let boundary: Vec<usize> = (1..).zip(&curves).filter(|(_, curve)| curve.groups.contains(&1)).map(|(tag, _)| tag).collect();
     let n = cells.vertices.len();
     for (tag, Entity { elements, groups }) in (1..).zip(&surfaces) {
         let (around, bounding) = if tag == 1 {
-            (bounds(cells, &mut (0..n)), &border[..])
+            (bounds(cells, &mut (0..n)), &boundary[..])
         } else {
             (bounds(cells, &mut elements.iter().flatten().copied()), &[][..])
         };

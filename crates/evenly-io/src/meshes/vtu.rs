@@ -6,7 +6,7 @@ use super::cells::Cells;
 use super::plain::{push_position, push_row};
 use crate::text::Shortest;
 
-/// Triangles, and after them the edges of the border and of lines; the cell array `tag` tells which, and `region` in which region triangles lie, -1 for none.
+/// Triangles, and after them the edges of the boundary and of lines; the cell array `tag` tells which, and `region` in which region triangles lie, -1 for none.
 pub(super) fn vtu(cells: &Cells, recipe: &str) -> String {
     let (n, n_triangles, n_edges) = (cells.vertices.len(), cells.triangles.len(), cells.edges.len());
     let comment = recipe.replace("--", "- -");

@@ -46,9 +46,9 @@ fn in_corners(mesh: &Mesh) -> std::ops::Range<usize> {
 /// The triangles that have a smaller angle than `least`, in degrees, or an obtuse one, the worst first.
 /// Those in corners of the polygon that are sharper themselves are no fault of the mesh.
 pub fn unmet(mesh: &Mesh, least: f64, no_obtuse: bool) -> Vec<UnmetAngle> {
-    let border: HashSet<[usize; 2]> =
-        mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Border { .. })).map(|edge| edge.ends).collect();
-    let is_held = |a: usize, b: usize| border.contains(&[a, b]) || border.contains(&[b, a]);
+    let boundary: HashSet<[usize; 2]> =
+        mesh.edges.iter().filter(|edge| matches!(edge.kind, EdgeKind::Boundary { .. })).map(|edge| edge.ends).collect();
+    let is_held = |a: usize, b: usize| boundary.contains(&[a, b]) || boundary.contains(&[b, a]);
     let mut found = Vec::new();
     for (t, corners) in mesh.triangles.iter().enumerate() {
         let angles = mesh.angles_deg(t);
@@ -58,7 +58,7 @@ pub fn unmet(mesh: &Mesh, least: f64, no_obtuse: bool) -> Vec<UnmetAngle> {
         let sides = [0, 1, 2].map(|k| is_held(corners[k], corners[(k + 1) % 3]));
         let is_corner = |k: usize| sides[k] && sides[(k + 2) % 3];
         let n_held = sides.iter().filter(|&&is| is).count();
-        let why = if n_held > 0 { "where the border is detailed or the domain narrow" } else { "near where the border is detailed" };
+        let why = if n_held > 0 { "where the boundary is detailed or the domain narrow" } else { "near where the boundary is detailed" };
         let mut miss = |demand, k: usize| found.push(UnmetAngle { demand, angle_deg: angles[k], at: mesh.vertices[corners[k]], why });
         if angles[smallest] < least && !is_corner(smallest) && !in_corners(mesh).contains(&t) {
             miss("min angle", smallest);

@@ -76,8 +76,8 @@ class Measures:
     """How many points have each number of neighbours."""
     density_error: float | None = None
     """Where a density is wanted, how far the number of points in cells of equal mass is from what it should be."""
-    border_angle_rms_deg: float | None = None
-    """``angle_rms_deg`` of triangles at the border, in bounded domains."""
+    boundary_angle_rms_deg: float | None = None
+    """``angle_rms_deg`` of triangles at the boundary, in bounded domains."""
     interior_angle_rms_deg: float | None = None
     """The same of all others."""
     uncovered_fraction: float | None = None
@@ -85,7 +85,7 @@ class Measures:
     isolated_points: int | None = None
     """Points without a triangle."""
     inner_capacity_max_deviation: float | None = None
-    """In a polygon, ``capacity_max_deviation`` of cells clear of the border."""
+    """In a polygon, ``capacity_max_deviation`` of cells clear of the boundary."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -33,8 +33,8 @@ class MeshQuality:
     """How many vertices there are."""
     n_triangles: int
     """How many triangles."""
-    n_border_edges: int
-    """How many edges on the border."""
+    n_boundary_edges: int
+    """How many edges on the boundary."""
     min_angle_deg: float
     """Smallest angle."""
     max_angle_deg: float
@@ -72,12 +72,12 @@ class Mesh(Frozen):
     triangles: NDArray[np.int64]
     """Of shape (m, 3): the vertices of each, counter-clockwise."""
     edges: NDArray[np.int64]
-    """Of shape (k, 2): the edges on the border, with the inside on their left, and on lines."""
+    """Of shape (k, 2): the edges on the boundary, with the inside on their left, and on lines."""
     tags: NDArray[np.int64]
-    """Of each edge: the segment of the border, counted through all of the polygon's rings; or -1, -2, ... for the first line, the second, ...;
+    """Of each edge: the segment of the boundary, counted through all of the polygon's rings; or -1, -2, ... for the first line, the second, ...;
     or `Mesh.BETWEEN` where two regions meet."""
     edge_length: Floats
-    """Of shape (n,): the length of edges that is wanted at each vertex, shorter than was asked for where the border is detailed."""
+    """Of shape (n,): the length of edges that is wanted at each vertex, shorter than was asked for where the boundary is detailed."""
     quality: MeshQuality
     """What it is worth."""
     seed: int
@@ -160,24 +160,24 @@ def mesh(
     callback: Callback | None = None,
     **options: "Unpack[OptimizerOptions]",
 ) -> Mesh:
-    """Mesh a polygon with triangles that conform to its border (Ebeida et al. 2014, section 7).
+    """Mesh a polygon with triangles that conform to its boundary (Ebeida et al. 2014, section 7).
 
     Parameters
     ----------
     polygon : Polygon, shapely polygon, file, ring or rings
         See `Polygon`. May be left out with `regions`: what these cover together.
     edge_length : float, optional
-        The wanted length of edges, in input units; shorter where the border is detailed or the domain narrow. This or `n_triangles`.
+        The wanted length of edges, in input units; shorter where the boundary is detailed or the domain narrow. This or `n_triangles`.
     n_triangles : int, optional
         About how many triangles, instead.
     simplify : float, optional
-        Fewer corners first: no place of the border goes farther than this, in input units. `Mesh.tags` then count the segments of the simpler polygon.
+        Fewer corners first: no place of the boundary goes farther than this, in input units. `Mesh.tags` then count the segments of the simpler polygon.
     seed : int, SeedSequence, Generator or None
         As in `generate`.
     method : str
         By which rule points move.
     grade : float, optional
-        Let edges grow away from the border, by so much a length.
+        Let edges grow away from the boundary, by so much a length.
     max_edge_length : float, optional
         The longest edges wanted, where they grow.
     sizes : array_like of shape (k, 3), optional
@@ -191,7 +191,7 @@ def mesh(
     fixed : array_like of shape (k, 2), optional
         Points that become vertices.
     lines : sequence of array_like of shape (k, 2), optional
-        Lines that become edges, split where they cross and clipped at the border; they are no slits: triangles on both sides share their vertices.
+        Lines that become edges, split where they cross and clipped at the boundary; they are no slits: triangles on both sides share their vertices.
     regions : mapping or sequence of polygons, or a file, optional
         Parts that are kept apart: no triangle lies in two, and `Mesh.regions` tells for each in which. Of a file: features of GeoJSON, polygons of WKT, shapes
         of SVG or of a shapefile, rings of text.

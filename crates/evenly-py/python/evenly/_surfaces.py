@@ -35,7 +35,7 @@ class SurfaceQuality:
     """How many triangles."""
     n_components: int
     """How many connected parts."""
-    n_border_edges: int
+    n_boundary_edges: int
     """How many edges with one triangle."""
     euler_characteristic: int
     """Vertices less edges plus triangles."""
@@ -242,7 +242,7 @@ def remesh(
     points : array_like of shape (k, 3), optional
         Points at which vertices begin, as many as are wanted or more.
     features : float or 'off'
-        Edges at which the surface turns by more than so many degrees are kept; borders are in any case.
+        Edges at which the surface turns by more than so many degrees are kept; boundaries are in any case.
     max_deviation : float or 'off', optional
         How far the given mesh may be from the new one, in edge lengths: where it is farther, a vertex is put and kept; 0.5 by default, 0.35 with a density.
     repair : bool

@@ -1,7 +1,7 @@
 //! [`Field`]: a density in the normalised coordinates of a domain, with exact lengths, masses and centroids.
 //!
-//! A length is the integral of the root of the density. A mass is found by Green's theorem: the integral of the density up to the border, along the
-//! border; so the cost grows with the pixels that the border crosses.
+//! A length is the integral of the root of the density. A mass is found by Green's theorem: the integral of the density up to the boundary, along the
+//! boundary; so the cost grows with the pixels that the boundary crosses.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::raster::Raster;
 use super::walk::Walk;
-use crate::space::{Border, Domain};
+use crate::space::{Boundary, Domain};
 
 /// A density on a domain, 1 on average.
 #[derive(Debug, Clone)]
@@ -31,7 +31,7 @@ struct Pixel {
     value: f64,
 }
 
-/// How far from a pixel's border points are put, in pixels: rounding does not take them over it.
+/// How far from a pixel's boundary points are put, in pixels: rounding does not take them over it.
 const CLEARANCE: f64 = 1.0 / 64.0;
 /// The least mean density in a polygon, relative to that of its frame.
 const LEAST_INSIDE: f64 = 1e-9;
@@ -53,11 +53,11 @@ impl Field {
             scale,
             root_scale: scale.sqrt(),
         };
-        if let Some(border) = &domain.border {
-            let inside: f64 = field.part_masses(border).iter().sum();
+        if let Some(boundary) = &domain.boundary {
+            let inside: f64 = field.part_masses(boundary).iter().sum();
             // Where there is next to nothing inside, nothing can be made of it.
-            if inside > LEAST_INSIDE * border.area {
-                field.scale = scale * border.area / inside;
+            if inside > LEAST_INSIDE * boundary.area {
+                field.scale = scale * boundary.area / inside;
                 field.root_scale = field.scale.sqrt();
             }
         }
@@ -65,10 +65,10 @@ impl Field {
     }
 
     /// The mass of each part of a polygon's inside.
-    pub fn part_masses(&self, border: &Border) -> Vec<f64> {
-        let mut masses = vec![0.0; border.n_parts()];
-        for (number, [a, b]) in border.segments().iter().enumerate() {
-            masses[border.part_at(number)] += self.flux(a * self.resolution, b * self.resolution).0;
+    pub fn part_masses(&self, boundary: &Boundary) -> Vec<f64> {
+        let mut masses = vec![0.0; boundary.n_parts()];
+        for (number, [a, b]) in boundary.segments().iter().enumerate() {
+            masses[boundary.part_at(number)] += self.flux(a * self.resolution, b * self.resolution).0;
         }
         masses.iter().map(|pixels| pixels * self.scale / (self.resolution.x * self.resolution.y)).collect()
     }
@@ -211,7 +211,7 @@ impl Field {
         (sum * by.y, mean)
     }
 
-    /// The index of a way's first pixel among the sums, if all of it stays clear of the picture's border.
+    /// The index of a way's first pixel among the sums, if all of it stays clear of the picture's boundary.
     #[inline]
     fn clear_index(&self, walk: &Walk) -> Option<usize> {
         let (columns, rows) = (self.raster.columns as i64, self.raster.rows as i64);
@@ -408,7 +408,7 @@ impl Field {
     }
 }
 
-/// A coordinate that lies outside of a pixel, from its start, taken inside: at its border, and the deeper the farther away it was, to a quarter.
+/// A coordinate that lies outside of a pixel, from its start, taken inside: at its boundary, and the deeper the farther away it was, to a quarter.
 fn inward(x: f64) -> f64 {
     let depth = |outside: f64| CLEARANCE + 0.25 * outside / (1.0 + outside);
     if x < 0.0 {

@@ -8,7 +8,7 @@ pub(super) struct Walk {
     /// The pixel in which it begins, perhaps outside of the picture.
     pub column: i64,
     pub row: i64,
-    /// How many borders between pixels it crosses.
+    /// How many boundaries between pixels it crosses.
     pub n_crossings: usize,
     /// Where it is to cross the next column, and the next row.
     pub next: [f64; 2],
@@ -21,7 +21,7 @@ pub(super) struct Walk {
 /// Adding this to a number below 2^51 leaves its nearest integer in the low bits.
 const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
 
-/// The pixel of a coordinate. One on the border of two counts to either.
+/// The pixel of a coordinate. One on the boundary of two counts to either.
 #[inline]
 fn pixel(x: f64) -> i64 {
     (x - 0.5 + ROUND).to_bits() as i64 - ROUND.to_bits() as i64
@@ -35,9 +35,9 @@ impl Walk {
             let (first, last) = (pixel(from), pixel(to));
             let stride = 1.0 / (to - from).abs();
             let is_up = last > first;
-            let border = first + i64::from(is_up);
-            // Where no border is crossed, none is ever next.
-            let next = if first == last { f64::INFINITY } else { (border as f64 - from).abs() * stride };
+            let boundary = first + i64::from(is_up);
+            // Where no boundary is crossed, none is ever next.
+            let next = if first == last { f64::INFINITY } else { (boundary as f64 - from).abs() * stride };
             (first, last.abs_diff(first) as usize, next, stride, if is_up { 1 } else { -1 })
         };
         let (column, n_columns, next_x, stride_x, step_x) = axis(from.x, to.x);

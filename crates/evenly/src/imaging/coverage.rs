@@ -67,7 +67,7 @@ mod tests {
         let image = dot_coverage(&middle(vec![[5.0, 0.0]]), &[0.2], 20, 10).unwrap();
         assert!(image.values()[0] == 1.0 && image.values()[199] == 0.0);
         let many = hexagonal(space, 500).unwrap();
-        // Some lie on the border.
+        // Some lie on the boundary.
         let radius = 0.3 * many.hex_spacing();
         let share = covered(&many, radius) / (500.0 * std::f64::consts::PI * radius * radius);
         assert!((0.9..=1.0).contains(&share), "{share}");

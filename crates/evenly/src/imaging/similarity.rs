@@ -26,7 +26,7 @@ const STEADY_VARIANCE: f64 = 0.03 * 0.03;
 const REACH: f64 = 4.0;
 
 impl Image {
-    /// The picture after a Gaussian of this standard deviation in pixels, above 0; beyond its border it is mirrored.
+    /// The picture after a Gaussian of this standard deviation in pixels, above 0; beyond its boundary it is mirrored.
     ///
     /// # Errors
     /// [`Error::InvalidParameter`] for a width that is not positive and finite.
@@ -79,7 +79,7 @@ fn blur_rows(values: &[f64], width: usize, sigma_px: f64) -> Vec<f64> {
     let reach = (REACH * sigma_px).ceil() as i64;
     let weights: Vec<f64> = (-reach..=reach).map(|k| libm::exp(-0.5 * (k as f64 / sigma_px).powi(2))).collect();
     let total: f64 = weights.iter().sum();
-    // Beyond the border the picture is mirrored, again and again where the kernel is wider than it.
+    // Beyond the boundary the picture is mirrored, again and again where the kernel is wider than it.
     let mirrored = |column: i64| {
         let turned = column.rem_euclid(2 * width as i64) as usize;
         if turned < width { turned } else { 2 * width - 1 - turned }

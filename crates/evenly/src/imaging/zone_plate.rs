@@ -203,7 +203,7 @@ impl Plate {
         let blur = |values: &[f64], index: usize, at: usize, step: usize| {
             let (mut sum, mut weight) = (0.0, 0.0);
             for (k, w) in weights.iter().enumerate() {
-                // Beyond the border there is nothing.
+                // Beyond the boundary there is nothing.
                 if let Some(other) = (at + k).checked_sub(REACH).filter(|other| *other < n) {
                     sum += w * values[index + other * step - at * step];
                     weight += w;

@@ -22,7 +22,7 @@ pub(super) fn correlate(points: &PointSet, n_bins: usize, spacing: &(impl Fn(usi
     let is_clear = |index: usize| domain.room(positions[index]) >= reach(index) * (1.0 - 1e-12);
     let centres: Vec<usize> = order.iter().map(|&index| index as usize).filter(|&index| is_clear(index)).collect();
     if centres.is_empty() {
-        return Err(Error::Degenerate("no point is far enough from the border for a spectrum".into()));
+        return Err(Error::Degenerate("no point is far enough from the boundary for a spectrum".into()));
     }
     let counted = centres.par_chunks(CHUNK).map(|chunk| {
         let mut counts = vec![0u64; n_bins];

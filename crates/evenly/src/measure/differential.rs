@@ -54,7 +54,7 @@ pub fn differential_spectrum(points: &PointSet, spacings: &[f64]) -> Result<Radi
 }
 
 /// Each point's own spacing, 1 / sqrt(density), in input units: as the density that the set keeps has it, at most thirty times the mean; or else a guess from the disks with 32 to 64 neighbours, or, of few points, up to half of them. It is good to some
-/// hundredths where the density is even over so many, and too large at a rectangle's border.
+/// hundredths where the density is even over so many, and too large at a rectangle's boundary.
 ///
 /// # Errors
 /// [`Error::Degenerate`] for fewer than three points, a torus too narrow for them, or so many in one place that they have no distance.

@@ -46,7 +46,7 @@ impl Distinct {
         self.triangulation.domain.uncovered(self.triangulation.copies)
     }
 
-    /// The same points in a mesh whose stars know the border and the density, in units of their own spacing.
+    /// The same points in a mesh whose stars know the boundary and the density, in units of their own spacing.
     pub fn live(&self, field: Option<Field>) -> Result<LiveMesh, Error> {
         let (domain, n_points) = (self.domain(), self.triangulation.n_base());
         let (order, spacing) = ((0..n_points as u32).collect(), domain.hex_spacing(n_points));

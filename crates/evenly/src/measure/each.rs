@@ -18,7 +18,7 @@ pub struct PointMeasures {
     pub reach: f64,
     /// Area of its Voronoi cell; in a polygon of several parts in the mean of its part.
     pub capacity: f64,
-    /// Whether that cell stays clear of a polygon's border. True in other domains.
+    /// Whether that cell stays clear of a polygon's boundary. True in other domains.
     pub is_inner: bool,
 }
 
@@ -39,7 +39,7 @@ pub fn measure_each(points: &PointSet) -> Result<Vec<PointMeasures>, Error> {
     };
     let measured = if let Some(field) = points.field(&domain) {
         weigh(&mut distinct.live(Some(field))?.in_units_of(spacing), &domain, spacing)?
-    } else if domain.border.is_some() {
+    } else if domain.boundary.is_some() {
         let seen = |seen: Seen| of(&seen.measures(), seen.is_inner);
         look(&mut distinct.live(None)?, 0.0, seen)?
     } else {

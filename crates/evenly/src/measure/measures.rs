@@ -19,9 +19,9 @@ use crate::triangulation::Triangulation;
 /// What [`measure`] finds. Lengths are in hexagonal spacings, `sqrt(2 A / (sqrt(3) n))`; capacities in mean capacities, `A / n`.
 ///
 /// In a rectangle and in a polygon Voronoi cells are clipped to the domain, triangles are the dual of the clipped diagram,
-/// and the measures of order and the valences leave out vertices whose cell reaches the border. Angles are NaN where there is no triangle.
+/// and the measures of order and the valences leave out vertices whose cell reaches the boundary. Angles are NaN where there is no triangle.
 ///
-/// In a polygon a border hides what lies behind it: but for `min_distance`, distances are to points that a point sees, and its cell is what it sees of the places that are nearer to it than to
+/// In a polygon a boundary hides what lies behind it: but for `min_distance`, distances are to points that a point sees, and its cell is what it sees of the places that are nearer to it than to
 /// other points that it sees. Behind corners cells may overlap, or leave a little out.
 ///
 /// Where the density varies, distances, the coverage radius and capacities are measured in it: lengths are integrals of its root along segments, from a point to its Delaunay
@@ -74,14 +74,14 @@ pub struct Measures {
     pub density_error: Option<f64>,
     /// What only a bounded domain has.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    pub border: Option<BorderMeasures>,
+    pub boundary: Option<BoundaryMeasures>,
 }
 
-/// Measures of a bounded domain's border.
+/// Measures of a bounded domain's boundary.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BorderMeasures {
-    /// `angle_rms_deg` of the triangles with a corner on the border of the triangulation.
-    pub border_angle_rms_deg: f64,
+pub struct BoundaryMeasures {
+    /// `angle_rms_deg` of the triangles with a corner on the boundary of the triangulation.
+    pub boundary_angle_rms_deg: f64,
     /// `angle_rms_deg` of all other triangles.
     pub interior_angle_rms_deg: f64,
     /// Share of the domain that no triangle covers.
@@ -91,7 +91,7 @@ pub struct BorderMeasures {
     /// In a polygon, the smallest distance of two points that see each other; infinite where none sees another.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min_distance_visible: Option<f64>,
-    /// In a polygon, `capacity_max_deviation` of the cells that stay clear of the border: what methods with such a target hold. At a ragged border they allow a quarter more.
+    /// In a polygon, `capacity_max_deviation` of the cells that stay clear of the boundary: what methods with such a target hold. At a ragged boundary they allow a quarter more.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inner_capacity_max_deviation: Option<f64>,
 }
@@ -99,13 +99,13 @@ pub struct BorderMeasures {
 impl Measures {
     /// The largest deviation of a cell's area for which a method stands that has such a target.
     pub(crate) fn capacity_deviation_held(&self) -> f64 {
-        let inner = self.border.as_ref().and_then(|border| border.inner_capacity_max_deviation);
+        let inner = self.boundary.as_ref().and_then(|boundary| boundary.inner_capacity_max_deviation);
         inner.unwrap_or(self.capacity_max_deviation)
     }
 
     /// The smallest distance that methods with such a target keep: in a polygon that of points that see each other.
     pub(crate) fn min_distance_held(&self) -> f64 {
-        self.border.as_ref().and_then(|border| border.min_distance_visible).unwrap_or(self.min_distance)
+        self.boundary.as_ref().and_then(|boundary| boundary.min_distance_visible).unwrap_or(self.min_distance)
     }
 }
 
@@ -146,9 +146,9 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
 
     let mut sums = Sums { min_distance: f64::INFINITY, ..Sums::default() };
     let field = points.field(&domain);
-    let is_live = field.is_some() || domain.border.is_some();
+    let is_live = field.is_some() || domain.boundary.is_some();
     let mut live = is_live.then(|| distinct.live(field.clone())).transpose()?;
-    if let Some(live) = live.as_mut().filter(|_| domain.border.is_some()) {
+    if let Some(live) = live.as_mut().filter(|_| domain.boundary.is_some()) {
         let stars = look(live, f64::INFINITY, |seen: Seen| seen.measures())?;
         let bounds: Vec<f64> = stars.iter().map(|star| star.reach).collect();
         stars.into_iter().zip(is_shared).for_each(|(star, &is_shared)| sums.add(star, mean_capacity, is_shared));
@@ -168,9 +168,9 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
     }
     // In a polygon's frame most of the mass may lie outside.
     let density_error =
-        field.as_ref().filter(|_| domain.border.is_none()).and_then(|field| density_error(&domain, field, points.normalized().1));
+        field.as_ref().filter(|_| domain.boundary.is_none()).and_then(|field| density_error(&domain, field, points.normalized().1));
     let n_inner = (sums.n_inner as f64).max(1.0);
-    let is_visible = domain.border.is_some();
+    let is_visible = domain.boundary.is_some();
     let distance = |nearest: f64| if coincident_points > 0 { 0.0 } else { nearest / spacing };
     let visible = distance(sums.min_distance);
     let min_distance = if is_visible { distance(nearest_of_all(triangulation, field.as_ref())) } else { visible };
@@ -196,13 +196,13 @@ pub fn measure(points: &PointSet) -> Result<Measures, Error> {
         obtuse_fraction: triangles.all.obtuse_fraction(),
         valence: sums.valence,
         density_error,
-        border: (!triangulation.domain.is_periodic).then(|| BorderMeasures {
-            border_angle_rms_deg: triangles.border.angle_rms_deg(),
+        boundary: (!triangulation.domain.is_periodic).then(|| BoundaryMeasures {
+            boundary_angle_rms_deg: triangles.boundary.angle_rms_deg(),
             interior_angle_rms_deg: triangles.interior.angle_rms_deg(),
             uncovered_fraction: (1.0 - triangles.all.area / domain.area()).max(0.0),
             isolated_points: triangles.isolated_points,
             min_distance_visible: is_visible.then_some(visible),
-            inner_capacity_max_deviation: domain.border.is_some().then_some(sums.inner_capacity_deviation),
+            inner_capacity_max_deviation: domain.boundary.is_some().then_some(sums.inner_capacity_deviation),
         }),
     })
 }

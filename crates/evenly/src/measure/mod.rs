@@ -21,7 +21,7 @@ mod weighted;
 pub(crate) use correlation::{BINS, level};
 pub use differential::{differential_spectrum, local_spacings};
 pub use each::{PointMeasures, measure_each};
-pub use measures::{BorderMeasures, Measures, measure};
+pub use measures::{BoundaryMeasures, Measures, measure};
 pub use power::{PowerSpectrum, power_spectrum};
 pub use radial::{RadialSpectrum, radial_spectrum};
 pub use size_error::SizeErrors;

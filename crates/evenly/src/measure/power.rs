@@ -1,7 +1,7 @@
 //! The power spectrum: how much of each wave a point set holds, P(k) = |sum over the points of exp(-2 pi i k x)|^2 / n.
 //!
 //! A torus holds the waves whose frequencies are whole in both directions, k = (a / width, b / height), and there the spectrum is exact. A rectangle is looked
-//! at through a window, sin^2 in both directions, that ends softly at its border: on the same frequencies it hides all of the mean density but the lowest nine.
+//! at through a window, sin^2 in both directions, that ends softly at its boundary: on the same frequencies it hides all of the mean density but the lowest nine.
 //! White noise has the power 1 (Ulichney, "Digital Halftoning", 1987; Schloemer and Deussen, "Accurate Spectral Analysis of Two-Dimensional Point
 //! Sets", Journal of Graphics, GPU, and Game Tools 15(3), 2011).
 //!

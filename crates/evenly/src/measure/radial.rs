@@ -48,7 +48,7 @@ const STEPS: usize = 200;
 
 /// The radial mean of the power spectrum, the pair correlation, and what Heck et al. derive from them; the mean over sets.
 ///
-/// In a rectangle only points count that are so far from the border that it hides no pair.
+/// In a rectangle only points count that are so far from the boundary that it hides no pair.
 ///
 /// # Errors
 /// [`Error::Degenerate`] for no sets, an empty one, sets of different domains or of numbers of points more than a tenth apart, and for so few points, or so
@@ -73,7 +73,7 @@ pub fn radial_spectrum(sets: &[PointSet]) -> Result<RadialSpectrum, Error> {
             *mean += g / sets.len() as f64;
         }
     }
-    // A rectangle's inside is a little less dense than all of it, where points stand on its border.
+    // A rectangle's inside is a little less dense than all of it, where points stand on its boundary.
     if !sets[0].space().is_periodic() {
         level(&mut correlation)?;
     }

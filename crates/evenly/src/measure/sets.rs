@@ -19,7 +19,7 @@ pub(super) fn require_alike(sets: &[PointSet]) -> Result<(), Error> {
         return refuse(format!("sets on {} and on {} have no mean spectrum", first.space(), other.space()));
     }
     if first.space().region().is_some() {
-        return refuse("in a polygon there is no spectrum: its border has one of its own; take the points of a rectangle inside".into());
+        return refuse("in a polygon there is no spectrum: its boundary has one of its own; take the points of a rectangle inside".into());
     }
     let counts = || sets.iter().map(PointSet::n_points);
     let (least, most) = (counts().min().unwrap_or_default(), counts().max().unwrap_or_default());

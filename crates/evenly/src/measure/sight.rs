@@ -19,7 +19,7 @@ pub(super) struct Seen<'a> {
     pub cell: &'a [DVec2],
     /// The distance of the cell's farthest place from the nearest point that sees it, or more.
     pub reach: f64,
-    /// Whether the cell stays clear of the border.
+    /// Whether the cell stays clear of the boundary.
     pub is_inner: bool,
     /// The mean capacity of all over that of the part in which it lies.
     pub share: f64,
@@ -35,7 +35,7 @@ impl Seen<'_> {
 
 /// Looks at what each point of a mesh sees. Up to `floor` its reach may be more than it is.
 pub(super) fn look<T: Send>(mesh: &mut LiveMesh, floor: f64, look: impl Fn(Seen) -> T + Sync) -> Result<Vec<T>, Error> {
-    let shares = mesh.border().map_or_else(Vec::new, |border| part_shares(border, &mesh.points(), None));
+    let shares = mesh.boundary().map_or_else(Vec::new, |boundary| part_shares(boundary, &mesh.points(), None));
     mesh.look(Senses::default(), |mesh, v, StarBuffer { star, spokes, sight, near, .. }| {
         let ways: Vec<DVec2> = spokes.iter().filter(|spoke| spoke.vertex != MIRROR).map(|spoke| spoke.way).collect();
         let is_inner = sight.outline.is_empty();

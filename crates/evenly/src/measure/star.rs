@@ -15,7 +15,7 @@ pub(super) struct StarMeasures {
     pub capacity: f64,
     /// The squared distance from the vertex, integrated over its Voronoi cell.
     pub second_moment: f64,
-    /// Whether its Voronoi cell stays clear of the border.
+    /// Whether its Voronoi cell stays clear of the boundary.
     pub is_inner: bool,
     pub valence: usize,
     /// Mean over its neighbours of exp(6 i theta).

@@ -19,7 +19,7 @@ pub struct Tessellation {
     /// The Voronoi cell of each point, counter-clockwise; on a torus around the point, perhaps outside the domain.
     /// Of coincident points all but one have none.
     pub cells: Vec<Vec<[f64; 2]>>,
-    /// The number of Delaunay neighbours of each point; `None` where a cell reaches the border, or a point shares its place.
+    /// The number of Delaunay neighbours of each point; `None` where a cell reaches the boundary, or a point shares its place.
     pub valence: Vec<Option<usize>>,
 }
 
@@ -30,7 +30,7 @@ pub struct Tessellation {
 pub fn tessellate(points: &PointSet) -> Result<Tessellation, Error> {
     let distinct = Distinct::triangulate(points)?;
     let triangulation = &distinct.triangulation;
-    let mut live = triangulation.domain.border.as_ref().map(|_| distinct.live(None)).transpose()?;
+    let mut live = triangulation.domain.boundary.as_ref().map(|_| distinct.live(None)).transpose()?;
     let n_base = triangulation.n_base();
     let index = |v: u32| triangulation.order[v as usize % n_base] as usize;
     let outward = |p: DVec2| {

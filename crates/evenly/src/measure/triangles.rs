@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::error::Error;
 use crate::geometry::triangle::Shape;
-use crate::triangulation::{BORDER, HalfEdges, LiveMesh, Triangulation, clipped, triangles_seen};
+use crate::triangulation::{BOUNDARY, HalfEdges, LiveMesh, Triangulation, clipped, triangles_seen};
 
 /// Shapes of some triangles, summed up.
 #[derive(Clone)]
@@ -61,37 +61,37 @@ impl Shapes {
 
 pub(super) struct TriangleMeasures {
     pub all: Shapes,
-    /// Triangles with a corner on the border.
-    pub border: Shapes,
+    /// Triangles with a corner on the boundary.
+    pub boundary: Shapes,
     pub interior: Shapes,
     pub isolated_points: usize,
 }
 
 /// The shapes of the triangles whose circumcentre lies in the domain; in a polygon of those that are seen in a mesh of the same points.
 pub(super) fn measure(triangulation: &Triangulation, live: Option<&mut LiveMesh>) -> Result<TriangleMeasures, Error> {
-    let (mut border, mut interior, mut all) = (Shapes::NONE, Shapes::NONE, Shapes::NONE);
+    let (mut boundary, mut interior, mut all) = (Shapes::NONE, Shapes::NONE, Shapes::NONE);
     let clipped = match live {
-        Some(live) if triangulation.domain.border.is_some() => triangles_seen(live)?,
+        Some(live) if triangulation.domain.boundary.is_some() => triangles_seen(live)?,
         _ => clipped(triangulation)?,
     };
     let n_vertices = triangulation.positions.len();
-    let is_border = is_on_border(&clipped, n_vertices);
+    let is_boundary = is_on_boundary(&clipped, n_vertices);
     let mut is_isolated = vec![true; n_vertices];
     for corners in clipped.triangles() {
         let (u, v) = triangulation.spokes(corners);
         all.add(u, v);
-        let part = if corners.iter().any(|&v| is_border[v as usize]) { &mut border } else { &mut interior };
+        let part = if corners.iter().any(|&v| is_boundary[v as usize]) { &mut boundary } else { &mut interior };
         part.add(u, v);
         corners.iter().for_each(|&v| is_isolated[v as usize] = false);
     }
     let isolated_points = is_isolated.into_iter().filter(|&is| is).count();
-    Ok(TriangleMeasures { all, border, interior, isolated_points })
+    Ok(TriangleMeasures { all, boundary, interior, isolated_points })
 }
 
-/// Marks the vertices on the border of a triangulation.
-fn is_on_border(half_edges: &HalfEdges, n_vertices: usize) -> Vec<bool> {
+/// Marks the vertices on the boundary of a triangulation.
+fn is_on_boundary(half_edges: &HalfEdges, n_vertices: usize) -> Vec<bool> {
     let mut marks = vec![false; n_vertices];
-    for h in (0..half_edges.origin.len()).filter(|&h| half_edges.twin[h] == BORDER) {
+    for h in (0..half_edges.origin.len()).filter(|&h| half_edges.twin[h] == BOUNDARY) {
         marks[half_edges.origin[h] as usize] = true;
         marks[half_edges.target(h as u32) as usize] = true;
     }

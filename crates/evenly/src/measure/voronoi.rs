@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::triangulation::{BORDER, Triangulation, circumcentre, prev};
+use crate::triangulation::{BOUNDARY, Triangulation, circumcentre, prev};
 
 /// Reads the Voronoi cell of a vertex into buffers of its own; everything relative to the vertex.
 pub(super) struct CellReader<'a> {
@@ -20,7 +20,7 @@ impl<'a> CellReader<'a> {
         Self { triangulation, outgoing, spokes: Vec::new(), cell: Vec::new(), clipped: Vec::new() }
     }
 
-    /// Reads the cell of `vertex`; true if it stays clear of a border.
+    /// Reads the cell of `vertex`; true if it stays clear of a boundary.
     pub fn read(&mut self, vertex: usize) -> bool {
         let Triangulation { half_edges, positions, domain, .. } = self.triangulation;
         let site = positions[vertex];
@@ -34,7 +34,7 @@ impl<'a> CellReader<'a> {
             self.spokes.push(u);
             self.cell.push(centre);
             is_clear &= domain.is_periodic || domain.contains(site + centre);
-            if half_edges.twin[prev(h) as usize] == BORDER {
+            if half_edges.twin[prev(h) as usize] == BOUNDARY {
                 self.spokes.push(v);
                 is_clear = false;
             }

@@ -9,7 +9,7 @@ use crate::predicates::is_left_turn;
 use crate::space::{SegmentTree, nearest, snap};
 
 /// Points this near to a segment or another point, in normalised units, count as on it.
-pub(super) const ON_BORDER: f64 = 1e-9;
+pub(super) const ON_BOUNDARY: f64 = 1e-9;
 
 /// Distinct points, by number.
 pub(super) struct Places {
@@ -31,7 +31,7 @@ impl Places {
         let [x, y] = cell(p);
         let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [x + dx, y + dy]));
         let near = around.filter_map(|cell| self.by_cell.get(&cell)).flatten().copied();
-        let found = near.filter(|&v| self.points[v as usize].distance(p) < ON_BORDER).min();
+        let found = near.filter(|&v| self.points[v as usize].distance(p) < ON_BOUNDARY).min();
         found.unwrap_or_else(|| {
             self.push(p);
             self.points.len() as u32 - 1
@@ -45,7 +45,7 @@ impl Places {
 }
 
 fn cell(p: DVec2) -> [i64; 2] {
-    [(p.x / ON_BORDER).floor() as i64, (p.y / ON_BORDER).floor() as i64]
+    [(p.x / ON_BOUNDARY).floor() as i64, (p.y / ON_BOUNDARY).floor() as i64]
 }
 
 /// The pieces of segments between points that lie on them, among which are those where they cross. What is
@@ -54,14 +54,14 @@ pub(super) fn arranged(places: &mut Places, segments: &[Segment]) -> Vec<Segment
     let ends: Vec<[DVec2; 2]> = segments.iter().map(|segment| segment.ends.map(|v| places.points[v as usize])).collect();
     let tree = SegmentTree::new(&ends);
     let mut on: Vec<Vec<u32>> = segments.iter().map(|segment| segment.ends.to_vec()).collect();
-    // The border is clean: no corner lies on its segments.
+    // The boundary is clean: no corner lies on its segments.
     let has_lines = segments.iter().any(|segment| matches!(segment.of, Of::Line(_)));
     let first = if has_lines { 0 } else { places.n_corners };
     for (v, &p) in (0u32..).zip(&places.points).skip(first) {
-        let is_near = |low: DVec2, high: DVec2| p.distance(p.clamp(low, high)) < ON_BORDER;
+        let is_near = |low: DVec2, high: DVec2| p.distance(p.clamp(low, high)) < ON_BOUNDARY;
         tree.find(is_near, |ends, segment| {
             let is_clean = v < places.n_corners as u32 && !matches!(segments[segment as usize].of, Of::Line(_));
-            if !is_clean && p.distance(nearest(p, ends)) < ON_BORDER {
+            if !is_clean && p.distance(nearest(p, ends)) < ON_BOUNDARY {
                 on[segment as usize].push(v);
             }
             false

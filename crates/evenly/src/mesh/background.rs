@@ -1,4 +1,4 @@
-//! The spacing for every place: what is asked for, and less where the border is detailed or the domain narrow.
+//! The spacing for every place: what is asked for, and less where the boundary is detailed or the domain narrow.
 //!
 //! A coarse mesh without thin triangles has sides as long as the domain's details are far apart (the
 //! local feature size, Ruppert 1995). So its shortest sides say how fine points must stand; from there on
@@ -20,7 +20,7 @@ const ASPECT: f64 = 1.183;
 
 /// Where a spacing is given for each place, circumradii of the coarse mesh are up to so many of it.
 const COARSE: f64 = 2.0;
-/// Where the spacing grows away from the border, segments of the coarse mesh are up to so many of it.
+/// Where the spacing grows away from the boundary, segments of the coarse mesh are up to so many of it.
 const FINE: f64 = 3.0;
 
 /// So many vertices a corner of the domain, and so many in all, are as many as the coarse mesh needs
@@ -33,7 +33,7 @@ const FINE_DETAIL: f64 = 0.4;
 const ALONE: [f64; 2] = [20.0, 40.0];
 const AS_FINE: f64 = 1.5;
 
-/// The spacing, and the segment of the outline on which each half-edge of its border lies, by its ends.
+/// The spacing, and the segment of the outline on which each half-edge of its boundary lies, by its ends.
 pub(super) struct Background {
     pub sizing: Sizing,
     /// A triangle of the sizing at each of the outline's points.
@@ -44,8 +44,8 @@ pub(super) struct Background {
 /// How the spacing is to vary, in normalised units.
 #[derive(Clone, Copy)]
 pub(super) struct Grading<'a> {
-    /// The largest spacing on the border, and anywhere.
-    pub on_border: f64,
+    /// The largest spacing on the boundary, and anywhere.
+    pub on_boundary: f64,
     pub largest: f64,
     /// By how much the spacing may grow a length.
     pub growth: f64,
@@ -73,7 +73,7 @@ pub(super) fn background(outline: &Outline, planar: Planar, grading: &Grading) -
     let source = planar.source.clone();
     let largest = grading.wanted.map(|wanted| move |p: DVec2| COARSE * wanted(p).max(grading.least));
     let largest = largest.as_ref().map(|largest| largest as &(dyn Fn(DVec2) -> f64 + Sync));
-    let longest = if grading.largest > grading.on_border { FINE * grading.on_border } else { f64::INFINITY };
+    let longest = if grading.largest > grading.on_boundary { FINE * grading.on_boundary } else { f64::INFINITY };
     let refined = |floor: f64, max_vertices: usize| {
         let refining = Refining { longest, aspect: ASPECT, floor, halves_all: true, is_sparing: false, max_vertices, largest };
         Refinement::run(planar.clone(), segments.clone(), refining)
@@ -105,8 +105,8 @@ pub(super) fn background(outline: &Outline, planar: Planar, grading: &Grading) -
     for h in 0..half_edges.origin.len() as u32 {
         let (a, b) = (half_edges.origin[h as usize] as usize, half_edges.target(h) as usize);
         let length = positions[a].distance(positions[b]);
-        let length = length.min(if half_edges.is_border(h) { grading.on_border } else { grading.largest });
-        if point_of[a].is_some() && point_of[b].is_some() && half_edges.is_border(h) {
+        let length = length.min(if half_edges.is_boundary(h) { grading.on_boundary } else { grading.largest });
+        if point_of[a].is_some() && point_of[b].is_some() && half_edges.is_boundary(h) {
             facts[a] = facts[a].min(length);
             facts[b] = facts[b].min(length);
         }

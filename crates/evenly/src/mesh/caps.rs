@@ -44,7 +44,7 @@ pub(super) fn cut_off(outline: &Outline, planar: &Planar, radii: &[f64]) -> (Out
     let has_line: HashSet<u32> = lines.iter().flatten().map(|&v| source[v as usize]).collect();
     let place = |v: u32| outline.points[source[v as usize] as usize];
     let mut caps = Vec::new();
-    for first in (0..half_edges.origin.len() as u32).filter(|&h| half_edges.is_border(h)) {
+    for first in (0..half_edges.origin.len() as u32).filter(|&h| half_edges.is_boundary(h)) {
         let corner = source[half_edges.origin[first as usize] as usize];
         let at = outline.points[corner as usize];
         // Along the fan around the corner, from the segment that leaves it to that which arrives.

@@ -11,7 +11,7 @@ use glam::DVec2;
 
 use super::aim::cosines;
 use crate::space::snap;
-use crate::triangulation::{BORDER, HalfEdges};
+use crate::triangulation::{BOUNDARY, HalfEdges};
 
 /// Vertices whose shortest edge is below this part of what is wanted are tried.
 const SHORT: f64 = 0.6;
@@ -101,7 +101,7 @@ impl Coarsening {
     pub fn finish(self) -> Coarse {
         let triangles: Vec<[u32; 3]> = self.triangles.into_iter().flatten().collect();
         let source: Vec<u32> = (0..self.positions.len() as u32).filter(|&v| !self.around[v as usize].is_empty()).collect();
-        let mut number = vec![BORDER; self.positions.len()];
+        let mut number = vec![BOUNDARY; self.positions.len()];
         source.iter().zip(0..).for_each(|(&v, new)| number[v as usize] = new);
         Coarse {
             half_edges: HalfEdges::of_triangles(source.len(), triangles.iter().map(|t| t.map(|v| number[v as usize]))),
@@ -264,7 +264,7 @@ impl<'a> Patch<'a> {
         let mut vertices: Vec<u32> = triangles.iter().flatten().copied().collect();
         vertices.sort_unstable();
         vertices.dedup();
-        let local = |u: u32| vertices.binary_search(&u).map_or(BORDER, |k| k as u32);
+        let local = |u: u32| vertices.binary_search(&u).map_or(BOUNDARY, |k| k as u32);
         let mut is_segment: Vec<[u32; 2]> = segment.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]).map(|ends| ends.map(local)).collect();
         let mut freedom: Vec<Freedom> = vertices
             .iter()

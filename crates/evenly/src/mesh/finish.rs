@@ -10,7 +10,7 @@ use super::outline::{Of, Outline};
 use super::settled::Settled;
 use super::{EdgeKind, Mesh, MeshEdge};
 use crate::space::Domain;
-use crate::triangulation::{BORDER, HalfEdges, Planar, Refinement, Refining, Sizing, Triangulation, prev};
+use crate::triangulation::{BOUNDARY, HalfEdges, Planar, Refinement, Refining, Sizing, Triangulation, prev};
 
 /// Angles below this are refined; or below what is wanted, as far as refinement ends in practice.
 pub(super) const REFINED_DEG: f64 = 25.5;
@@ -50,14 +50,14 @@ pub(super) fn finish(
         refinement = refined(floors[1], 2 * most);
     }
     let Refinement { half_edges, positions, segments, .. } = refinement;
-    corners.resize(positions.len(), BORDER);
+    corners.resize(positions.len(), BOUNDARY);
     let sizes = sizes_of_all(sizes, hints, &sizing, &half_edges, &positions);
     let refined = Coarse { half_edges, source: (0..positions.len() as u32).collect(), positions, segments };
     let coarse = if refined.positions.len() == n_settled {
         refined
     } else {
         let mut coarsening = Coarsening::new(refined, outline.rails(), refined_deg);
-        coarsening.run(n_settled, |v| corners[v as usize] != BORDER, |v| sizes[v as usize]);
+        coarsening.run(n_settled, |v| corners[v as usize] != BOUNDARY, |v| sizes[v as usize]);
         coarsening.finish()
     };
     let Coarse { half_edges, positions, segments, source } = coarse;
@@ -69,7 +69,7 @@ pub(super) fn finish(
     let mut numbers = HashMap::new();
     let mut vertices = Vec::with_capacity(positions.len());
     for ((&corner, &p), &size) in corners.iter().zip(&positions).zip(&sizes) {
-        let number = if corner == BORDER { mesh.vertices.len() } else { *numbers.entry(corner).or_insert(mesh.vertices.len()) };
+        let number = if corner == BOUNDARY { mesh.vertices.len() } else { *numbers.entry(corner).or_insert(mesh.vertices.len()) };
         vertices.push(number);
         if number == mesh.vertices.len() {
             mesh.vertices.push(outline.given.get(corner as usize).copied().unwrap_or_else(|| domain.restore(p)));
@@ -85,7 +85,7 @@ pub(super) fn finish(
         let Some(&number) = segments.get(&ends) else { continue };
         let ends = ends.map(|v| vertices[v as usize]);
         match outline.segments[number as usize].of {
-            Of::Border(segment) => mesh.edges.push(MeshEdge { ends, kind: EdgeKind::Border { segment: segment as usize } }),
+            Of::Boundary(segment) => mesh.edges.push(MeshEdge { ends, kind: EdgeKind::Boundary { segment: segment as usize } }),
             Of::Line(line) => mesh.edges.push(MeshEdge { ends, kind: EdgeKind::Line { line: line as usize } }),
             Of::Base => bases.entry(number).or_default().push(ends),
         }
@@ -119,8 +119,8 @@ pub(super) fn finish(
         mesh.triangles.extend(sides.iter().map(|&[from, to]| [apex, to, from]));
         mesh.triangles.extend(last.map(|[from, back]| [from, base[1], back]));
         for (k, leg) in [(1, cap.legs[0]), (0, cap.legs[1])] {
-            let Of::Border(segment) = leg else { continue };
-            let kind = EdgeKind::Border { segment: segment as usize };
+            let Of::Boundary(segment) = leg else { continue };
+            let kind = EdgeKind::Boundary { segment: segment as usize };
             let along: Vec<usize> = [tip].into_iter().chain(rungs.iter().chain([&base]).map(|ends| ends[k])).collect();
             mesh.edges.extend(along.windows(2).map(|w| MeshEdge { ends: if k == 0 { [w[0], w[1]] } else { [w[1], w[0]] }, kind }));
         }
@@ -133,11 +133,11 @@ pub(super) fn finish(
 fn sizes_of_all(mut sizes: Vec<f64>, mut hints: Vec<u32>, sizing: &Sizing, half_edges: &HalfEdges, positions: &[DVec2]) -> Vec<f64> {
     let n_settled = sizes.len();
     sizes.resize(positions.len(), f64::NAN);
-    hints.resize(positions.len(), BORDER);
+    hints.resize(positions.len(), BOUNDARY);
     let outgoing = half_edges.outgoing(positions.len());
     for v in n_settled..positions.len() {
         let around = half_edges.around(outgoing[v]).flat_map(|h| [half_edges.target(h), half_edges.origin[prev(h) as usize]]);
-        let mut hint = around.map(|other| hints[other as usize]).find(|&hint| hint != BORDER).unwrap_or(0);
+        let mut hint = around.map(|other| hints[other as usize]).find(|&hint| hint != BOUNDARY).unwrap_or(0);
         sizes[v] = sizing.at(positions[v], &mut hint);
         hints[v] = hint;
     }

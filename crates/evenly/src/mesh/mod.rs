@@ -1,10 +1,10 @@
-//! [`mesh`]: triangles in a polygon that conform to its border, as good as points in blue noise give, and no more regular than that.
+//! [`mesh`]: triangles in a polygon that conform to its boundary, as good as points in blue noise give, and no more regular than that.
 //!
 //! Ebeida, Awad, Ge, Mahmoud, Mitchell, Knupp and Wei, "Improving Spatial Coverage while Preserving the Blue Noise of Point Sets", Computer-Aided Design 46, 2014, doi
-//! 10.1016/j.cad.2013.08.015, section 7.0.1: points on the border move along it, corners stay, and beta bounds the angles.
+//! 10.1016/j.cad.2013.08.015, section 7.0.1: points on the boundary move along it, corners stay, and beta bounds the angles.
 //!
-//! What differs, and why: points are moved by Push-Pull's rule, to one distance and one radius, which reaches a lower beta than Opt-beta's; [`MeshParams::method`] can be that one too, and others. At the border a
-//! star is seen once more as in a mirror, so rules know of none. The spacing is shorter where the border asks for it, and where points cannot come to rest some are added or removed.
+//! What differs, and why: points are moved by Push-Pull's rule, to one distance and one radius, which reaches a lower beta than Opt-beta's; [`MeshParams::method`] can be that one too, and others. At the boundary a
+//! star is seen once more as in a mirror, so rules know of none. The spacing is shorter where the boundary asks for it, and where points cannot come to rest some are added or removed.
 //!
 //! Cost: O(n log n); 15 to 30 visits a point where the spacing is the same everywhere, a hundred and more where it varies much. It does not promise any angle, though refinement at the end leaves none
 //! below 25 degrees but at sharper corners, and where the domain is thinner than a five-hundredth of the spacing.
@@ -12,7 +12,7 @@
 mod aim;
 mod arrangement;
 mod background;
-mod border;
+mod boundary;
 mod caps;
 mod cells;
 mod coarsen;
@@ -72,7 +72,7 @@ pub struct MeshParams<'a> {
     pub max_edge_length: Option<f64>,
     /// How fast edges may grow away from where they are short, in length per unit of distance; in (0, 1]. Less makes more triangles, and better ones; where no triangle shall be obtuse, it may be made less.
     pub growth: f64,
-    /// How points find their places; `None` for Push-Pull to targets that suit the demands. Those on the border and on lines move along their segment, and corners stay, whatever the
+    /// How points find their places; `None` for Push-Pull to targets that suit the demands. Those on the boundary and on lines move along their segment, and corners stay, whatever the
     /// method. Where triangles are bad then, points are added or removed and the method goes on there; the last bad ones are polished.
     pub method: Option<LocalMethod>,
     /// No triangle shall be obtuse. That takes longer, and is not always reached.
@@ -81,7 +81,7 @@ pub struct MeshParams<'a> {
     pub min_angle_deg: Option<f64>,
     /// Points that stay and become vertices, in input units.
     pub fixed: Vec<[f64; 2]>,
-    /// Lines that become edges, each from point to point, in input units; they are split where they cross, and clipped at the border.
+    /// Lines that become edges, each from point to point, in input units; they are split where they cross, and clipped at the boundary.
     pub lines: Vec<Vec<[f64; 2]>>,
     /// Parts of the domain that are kept apart.
     pub regions: Vec<MeshRegion>,
@@ -121,7 +121,7 @@ impl MeshParams<'_> {
         // Not finer than the numbers are, inside or in input units.
         let least = outline::LEAST.max(RESOLVED * resolution / unit);
         Grading {
-            on_border: self.edge_length / unit,
+            on_boundary: self.edge_length / unit,
             largest: self.max_edge_length.unwrap_or(self.edge_length) / unit,
             growth: self.growth,
             floor: (FLOOR * self.edge_length / unit).max(least),
@@ -165,16 +165,16 @@ pub struct Mesh {
     pub vertices: Vec<[f64; 2]>,
     /// Vertices of each triangle, counter-clockwise.
     pub triangles: Vec<[usize; 3]>,
-    /// The edges on the border and on lines.
+    /// The edges on the boundary and on lines.
     pub edges: Vec<MeshEdge>,
-    /// The length of edges that is wanted at each vertex, in input units: what was asked for, and less where the border is detailed. Empty where nobody knows.
+    /// The length of edges that is wanted at each vertex, in input units: what was asked for, and less where the boundary is detailed. Empty where nobody knows.
     pub sizes: Vec<f64>,
     /// The region in which each triangle lies, as [`MeshParams::regions`] has them; `u32::MAX` for none. Empty where there are none.
     pub regions: Vec<u32>,
     /// Their names.
     pub region_names: Vec<String>,
     /// So many triangles, the last ones, lie in corners of the polygon that are sharper than 60 degrees:
-    /// there its border forces the angles.
+    /// there its boundary forces the angles.
     pub n_in_corners: usize,
 }
 
@@ -192,7 +192,7 @@ impl Mesh {
 /// An edge that a mesh had to have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MeshEdge {
-    /// Its vertices; on the border with the inside on their left.
+    /// Its vertices; on the boundary with the inside on their left.
     pub ends: [usize; 2],
     /// What it is part of.
     pub kind: EdgeKind,
@@ -201,8 +201,8 @@ pub struct MeshEdge {
 /// What an edge of a mesh is part of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EdgeKind {
-    /// The polygon's border.
-    Border {
+    /// The polygon's boundary.
+    Boundary {
         /// Its segment, counted through all of [`Polygon::rings`].
         segment: usize,
     },
@@ -222,7 +222,7 @@ pub enum EdgeKind {
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] as [`MeshParams::validate`] has it; [`Error::NotInside`] where a fixed point, or all of all lines, lies outside; [`Error::TooManyPoints`] where the
-/// spacing asks for more than [`MAX_POINTS`]; [`Error::Degenerate`] where the border is finer than f64 can tell.
+/// spacing asks for more than [`MAX_POINTS`]; [`Error::Degenerate`] where the boundary is finer than f64 can tell.
 ///
 /// # Example
 /// ```
@@ -237,7 +237,7 @@ pub fn mesh(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Res
     params.validate()?;
     let n_obtuse = |mesh: &Mesh| mesh_quality(mesh).obtuse_triangles;
     let mut best = meshed(polygon, params, run)?;
-    // Along a finely divided border that bends inwards each corner takes three triangles, and where the spacing grows fast there are too few.
+    // Along a finely divided boundary that bends inwards each corner takes three triangles, and where the spacing grows fast there are too few.
     for growth in SLOW_GROWTHS.into_iter().filter(|&growth| params.is_non_obtuse && growth < params.growth) {
         if best.1.outcome != Outcome::IterationLimit || n_obtuse(&best.0) == 0 {
             break;
@@ -263,8 +263,8 @@ fn meshed(polygon: &Polygon, params: &MeshParams, run: &mut RunContext) -> Resul
     // 1. What the mesh must keep; sharp corners are set apart, and the spacing is found for every place.
     let Graded { outline, caps, mut background, floor } = graded(polygon, params)?;
 
-    // 2. Points on the border and on lines, and a spacing that fits them.
-    let parts = border::divide(&outline, &mut background);
+    // 2. Points on the boundary and on lines, and a spacing that fits them.
+    let parts = boundary::divide(&outline, &mut background);
     limit_growth(&mut background.sizing, params.growth);
 
     // 3. Points inside: what the spacing asks for.
@@ -335,13 +335,13 @@ fn graded(polygon: &Polygon, params: &MeshParams) -> Result<Graded, Error> {
 /// The outline without its sharp corners, these as caps, and the spacing. Where it asks for more points at the base of a cap, the cap was too large.
 fn capped(whole: &Outline, domain: &Domain, grading: &Grading) -> Result<(Outline, Vec<Cap>, Background), Error> {
     let planar = whole.triangulated(domain)?;
-    let mut radii = vec![grading.on_border; whole.points.len()];
+    let mut radii = vec![grading.on_boundary; whole.points.len()];
     let mut n_tries = 0;
     loop {
         let (outline, caps) = cut_off(whole, &planar, &radii);
         let own = if caps.is_empty() { planar.clone() } else { outline.triangulated(domain)? };
         let background = background(&outline, own, grading);
-        let lengths = border::lengths(&outline, &background);
+        let lengths = boundary::lengths(&outline, &background);
         n_tries += 1;
         let is_large = |cap: &&Cap| lengths[cap.base as usize] > LONGEST_BASE;
         let n_large = caps.iter().filter(is_large).count();

@@ -1,11 +1,11 @@
-//! [`Outline`]: what a mesh must keep: the polygon's border, points that stay, lines that become edges.
+//! [`Outline`]: what a mesh must keep: the polygon's boundary, points that stay, lines that become edges.
 
 use std::collections::HashSet;
 
 use glam::DVec2;
 
 use super::MeshRegion;
-use super::arrangement::{ON_BORDER, Places, arranged, within};
+use super::arrangement::{ON_BOUNDARY, Places, arranged, within};
 use crate::error::Error;
 use crate::polygon::Polygon;
 use crate::space::{Domain, GRID, snap};
@@ -18,7 +18,7 @@ const MARGIN: f64 = 0.01;
 /// Where segments cross they are split; rounding then moves them, so that they may cross again.
 const MOST_SPLITS: usize = 8;
 
-/// Points, and segments between them; of the border with the inside on their left.
+/// Points, and segments between them; of the boundary with the inside on their left.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
     pub points: Vec<DVec2>,
@@ -39,8 +39,8 @@ pub(super) struct Segment {
 /// What a segment is part of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
-    /// The border, in its segment of this number.
-    Border(u32),
+    /// The boundary, in its segment of this number.
+    Boundary(u32),
     /// This line.
     Line(u32),
     /// The base of a cap.
@@ -53,16 +53,16 @@ impl Outline {
         self.segments.iter().map(|segment| segment.ends.map(|v| self.points[v as usize])).collect()
     }
 
-    /// The polygon's border, with points that stay and lines that become edges, all in input units. Lines
-    /// are split where they cross, and clipped at the border. The regions' outlines are lines, too, and
+    /// The polygon's boundary, with points that stay and lines that become edges, all in input units. Lines
+    /// are split where they cross, and clipped at the boundary. The regions' outlines are lines, too, and
     /// have the numbers after the others'.
     ///
     /// # Errors
     /// [`Error::NotInside`] where a point, or all of all lines, lies outside.
     pub fn new(polygon: &Polygon, fixed: &[[f64; 2]], lines: &[Vec<[f64; 2]>], regions: &[MeshRegion]) -> Result<Self, Error> {
         let domain = polygon.domain();
-        let border = (0..).zip(polygon.border()).map(|(number, &ends)| Segment { ends, of: Of::Border(number) });
-        let mut segments: Vec<Segment> = border.collect();
+        let boundary = (0..).zip(polygon.boundary()).map(|(number, &ends)| Segment { ends, of: Of::Boundary(number) });
+        let mut segments: Vec<Segment> = boundary.collect();
         let mut places = Places::new(polygon.corners());
         let mut given = polygon.given().to_vec();
         let mut number = |at: DVec2, input: [f64; 2]| {
@@ -78,7 +78,7 @@ impl Outline {
         for &point in fixed {
             let at = domain.normalize(point);
             let unit = domain.restore_length(1.0);
-            if !point.iter().zip(domain.restore(at)).all(|(x, back)| (x - back).abs() <= ON_BORDER * unit) {
+            if !point.iter().zip(domain.restore(at)).all(|(x, back)| (x - back).abs() <= ON_BOUNDARY * unit) {
                 return Err(Error::NotInside { what: "fixed point", at: point });
             }
             stay.push(number(at, point));
@@ -151,8 +151,8 @@ impl Outline {
         }
         let n_outside = (0..lines.len()).filter(|&line| !is_there(line)).count();
         self.notes.push(match n_outside {
-            0 => "lines reach outside of the polygon: clipped at its border".into(),
-            n => format!("{n} of {} lines lie outside of the polygon, or on its border: left out; others are clipped there", lines.len()),
+            0 => "lines reach outside of the polygon: clipped at its boundary".into(),
+            n => format!("{n} of {} lines lie outside of the polygon, or on its boundary: left out; others are clipped there", lines.len()),
         });
         Ok(())
     }
@@ -171,7 +171,7 @@ impl Outline {
         self.segments.iter_mut().for_each(|segment| segment.ends = segment.ends.map(|v| number[v as usize]));
     }
 
-    /// The triangulation of what the border encloses.
+    /// The triangulation of what the boundary encloses.
     ///
     /// # Errors
     /// [`Error::InvalidPolygon`] where segments cross.
@@ -179,9 +179,9 @@ impl Outline {
         let of_kind = |is_line: bool| -> Vec<[u32; 2]> {
             self.segments.iter().filter(|segment| matches!(segment.of, Of::Line(_)) == is_line).map(|segment| segment.ends).collect()
         };
-        planar(Graph { points: &self.points, border: &of_kind(false), lines: &of_kind(true) }).map_err(|Crossing(crossed)| {
+        planar(Graph { points: &self.points, boundary: &of_kind(false), lines: &of_kind(true) }).map_err(|Crossing(crossed)| {
             let at = domain.restore(self.points[crossed[0][0] as usize]);
-            Error::InvalidPolygon { problem: "has a border or a line that meets another in rounding".into(), at }
+            Error::InvalidPolygon { problem: "has a boundary or a line that meets another in rounding".into(), at }
         })
     }
 }

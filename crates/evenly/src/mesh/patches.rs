@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use super::state::State;
-use crate::triangulation::{BORDER, Bonds, Edge, HalfEdges, Track, Triangulation};
+use crate::triangulation::{BOUNDARY, Bonds, Edge, HalfEdges, Track, Triangulation};
 
 /// A patch is what can be reached from bad triangles over so many edges.
 const REACH: usize = 8;
@@ -91,7 +91,7 @@ fn component(half_edges: &HalfEdges, start: u32, mut take: impl FnMut(u32) -> bo
     while let Some(t) = stack.pop() {
         if take(t) {
             triangles.push(t);
-            stack.extend((3 * t..3 * t + 3).map(|h| half_edges.twin[h as usize]).filter(|&twin| twin != BORDER).map(|twin| twin / 3));
+            stack.extend((3 * t..3 * t + 3).map(|h| half_edges.twin[h as usize]).filter(|&twin| twin != BOUNDARY).map(|twin| twin / 3));
         }
     }
     triangles
@@ -117,7 +117,7 @@ impl Whole<'_> {
             let of = [half_edges.origin[h as usize], half_edges.target(h)].map(|v| self.source[v as usize]);
             let ends = of.map(&mut number);
             let twin = half_edges.twin[h as usize];
-            let is_rim = twin != BORDER && !is_in(twin / 3);
+            let is_rim = twin != BOUNDARY && !is_in(twin / 3);
             if is_rim {
                 rim.push(ends);
             }
@@ -167,7 +167,7 @@ pub(super) fn put_back(whole: State, patches: Vec<(Patch, State)>) -> State {
         let mut numbers = Vec::with_capacity(state.points.len());
         for (k, (&at, &point)) in state.points.iter().zip(&state.corners).enumerate() {
             let hint = state.bonds.hints[k];
-            if point != BORDER {
+            if point != BOUNDARY {
                 is_gone[point as usize] = false;
                 (points[point as usize], bonds.hints[point as usize]) = (at, hint);
                 numbers.push(point);
@@ -175,7 +175,7 @@ pub(super) fn put_back(whole: State, patches: Vec<(Patch, State)>) -> State {
             }
             numbers.push(points.len() as u32);
             points.push(at);
-            corners.push(BORDER);
+            corners.push(BOUNDARY);
             is_gone.push(false);
             bonds.hints.push(hint);
             bonds.tracks.push(match state.bonds.tracks[k] {
@@ -198,7 +198,7 @@ pub(super) fn put_back(whole: State, patches: Vec<(Patch, State)>) -> State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{Graded, MeshParams, State, border, graded, limit_growth, scatter};
+    use crate::mesh::{Graded, MeshParams, State, boundary, graded, limit_growth, scatter};
     use crate::points::Random;
     use crate::polygon::Polygon;
     use crate::space::{Domain, SegmentTree};
@@ -212,7 +212,7 @@ mod tests {
         let mut params = MeshParams::new(0.012);
         params.lines = vec![vec![[0.5, 0.0], [0.6, 0.7]]];
         let Graded { outline, mut background, .. } = graded(&polygon, &params).unwrap();
-        let parts = border::divide(&outline, &mut background);
+        let parts = boundary::divide(&outline, &mut background);
         limit_growth(&mut background.sizing, params.growth);
         let inside = scatter(&background.sizing, &SegmentTree::new(&[]), &mut Random::new(1, 1));
         let state = State::new(&outline, background, &parts, inside);

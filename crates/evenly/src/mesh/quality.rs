@@ -14,8 +14,8 @@ pub struct MeshQuality {
     pub n_vertices: usize,
     /// How many triangles.
     pub n_triangles: usize,
-    /// How many edges on the border.
-    pub n_border_edges: usize,
+    /// How many edges on the boundary.
+    pub n_boundary_edges: usize,
     /// Smallest angle.
     pub min_angle_deg: f64,
     /// Largest angle.
@@ -46,9 +46,9 @@ fn size_errors(mesh: &Mesh) -> Option<SizeErrors> {
     if mesh.sizes.len() != mesh.vertices.len() {
         return None;
     }
-    let is_on_border: HashSet<[usize; 2]> = mesh.edges.iter().map(|edge| edge.ends).collect();
+    let is_on_boundary: HashSet<[usize; 2]> = mesh.edges.iter().map(|edge| edge.ends).collect();
     let sides = mesh.triangles.iter().flat_map(|t| [0, 1, 2].map(|k| [t[k], t[(k + 1) % 3]]));
-    let edges = sides.filter(|&[a, b]| a < b || is_on_border.contains(&[a, b]));
+    let edges = sides.filter(|&[a, b]| a < b || is_on_boundary.contains(&[a, b]));
     SizeErrors::of(edges.map(|ends| {
         let [p, q] = ends.map(|v| mesh.vertices[v]);
         (libm::hypot(p[0] - q[0], p[1] - q[1]), ends.map(|v| mesh.sizes[v]))
@@ -60,7 +60,7 @@ pub fn mesh_quality(mesh: &Mesh) -> MeshQuality {
     let mut quality = MeshQuality {
         n_vertices: mesh.vertices.len(),
         n_triangles: mesh.triangles.len(),
-        n_border_edges: mesh.edges.iter().filter(|edge| matches!(edge.kind, super::EdgeKind::Border { .. })).count(),
+        n_boundary_edges: mesh.edges.iter().filter(|edge| matches!(edge.kind, super::EdgeKind::Boundary { .. })).count(),
         min_angle_deg: f64::INFINITY,
         max_angle_deg: f64::NEG_INFINITY,
         mean_min_angle_deg: 0.0,

@@ -13,7 +13,7 @@ use crate::geometry::spacing::triangle_count;
 use crate::space::snap;
 use crate::triangulation::{Bonds, LiveMesh, Track, Triangulation, circumcentre, prev};
 
-/// Edges of the border that are longer than this many spacings are better halved.
+/// Edges of the boundary that are longer than this many spacings are better halved.
 const LONG: f64 = 1.3;
 /// And nearer to an end than by this part of them no point comes onto them.
 const LEAST_SHARE: f64 = 0.2;
@@ -115,7 +115,7 @@ impl<'a> View<'a> {
         let spacing = self.spacing(t);
         let (removal, addition) = (self.removal(t), self.addition(t, may_halve));
         let change = match addition {
-            // As many as before, but one on the border: that settles it, whether there are too many or not.
+            // As many as before, but one on the boundary: that settles it, whether there are too many or not.
             Some(Change::Land(..)) if self.length(self.longest(t)) > LONG * spacing => addition,
             _ if self.is_crowded(t) => removal.or(addition),
             _ => addition.or(removal),
@@ -152,7 +152,7 @@ impl<'a> View<'a> {
         Some(Change::Remove(self.source[gone as usize]))
     }
 
-    /// A point comes onto the longest side, if that lies on the border or a line or the triangle is obtuse, or else into the middle.
+    /// A point comes onto the longest side, if that lies on the boundary or a line or the triangle is obtuse, or else into the middle.
     fn addition(&self, t: usize, may_halve: impl Fn(u32) -> bool) -> Option<Change> {
         let longest = self.longest(t);
         let [from, to] = self.ends(longest);

@@ -162,7 +162,7 @@ fn bits(at: DVec2) -> [u64; 2] {
 
 /// Why there is no mesh of the points.
 fn meets_itself() -> Error {
-    Error::Degenerate("the border is so fine that points on it meet in rounding; a larger spacing helps".into())
+    Error::Degenerate("the boundary is so fine that points on it meet in rounding; a larger spacing helps".into())
 }
 
 /// How bad all triangles are.

@@ -12,7 +12,7 @@ pub(super) struct Settled {
     pub tracks: Vec<Track>,
     /// The outline's point that each vertex is.
     pub corners: Vec<u32>,
-    /// The edges on the border and lines by their vertices, and the outline's segment on which each lies.
+    /// The edges on the boundary and lines by their vertices, and the outline's segment on which each lies.
     pub edges: Vec<([u32; 2], u32)>,
     /// The wanted spacing at each vertex, in the domain's units, and for every place; with the triangle there of each vertex.
     pub sizes: Vec<f64>,

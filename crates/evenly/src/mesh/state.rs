@@ -5,18 +5,18 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::background::Background;
-use super::border::Parts;
+use super::boundary::Parts;
 use super::outline::{Of, Outline};
 use super::scatter::Scattered;
 use crate::points::hilbert_order;
 use crate::space::Domain;
-use crate::triangulation::{BORDER, Bonds, Edge, LiveMesh, Track};
+use crate::triangulation::{BOUNDARY, Bonds, Edge, LiveMesh, Track};
 
 /// What holds the points, by point, and where they are.
 #[derive(Debug, Clone)]
 pub(super) struct State {
     pub points: Vec<DVec2>,
-    /// The outline's point that each is; [`BORDER`] for those that are none.
+    /// The outline's point that each is; [`BOUNDARY`] for those that are none.
     pub corners: Vec<u32>,
     /// Their rails are the outline's segments.
     pub bonds: Bonds,
@@ -43,7 +43,7 @@ impl State {
         tracks.extend(inside.points.iter().map(|_| Track::Free));
         points.extend(inside.points);
         hints.extend(inside.hints);
-        corners.resize(points.len(), BORDER);
+        corners.resize(points.len(), BOUNDARY);
         let rails = outline.rails();
         let bonds = Bonds { tracks, rails, edges, sizing: Arc::new(sizing), hints };
         Self { points, corners, bonds }
@@ -60,7 +60,7 @@ impl State {
     /// The points that are not gone, in the same order, and these edges between them.
     pub fn without(self, is_gone: &[bool], edges: Vec<Edge>) -> Self {
         let Self { points, corners, bonds } = self;
-        let mut number = vec![BORDER; points.len()];
+        let mut number = vec![BOUNDARY; points.len()];
         let kept: Vec<usize> = (0..points.len()).filter(|&k| !is_gone[k]).collect();
         kept.iter().zip(0..).for_each(|(&k, new)| number[k] = new);
         Self {

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::measure::{PointMeasures, measure_each};
 use crate::points::PointSet;
 use crate::run::{Outcome, Report, RunContext};
-use crate::space::{Border, Space};
+use crate::space::{Boundary, Space};
 use crate::star::Senses;
 use crate::triangulation::{LiveMesh, StarBuffer};
 
@@ -90,9 +90,9 @@ fn obstacles(points: &PointSet) -> Result<Vec<Obstacle>, Error> {
 }
 
 fn first_of(mesh: &LiveMesh, v: u32, StarBuffer { star, spokes, sight, .. }: &StarBuffer, least_area: f64) -> Obstacle {
-    let part_area = |border: &Border| border.part_areas()[border.part_of(mesh.position(v))];
+    let part_area = |boundary: &Boundary| boundary.part_areas()[boundary.part_of(mesh.position(v))];
     let densest = star.metric.sides.iter().copied().fold(0.0, f64::max);
-    if mesh.border().is_some_and(|border| part_area(border) < least_area) {
+    if mesh.boundary().is_some_and(|boundary| part_area(boundary) < least_area) {
         Obstacle::Island
     } else if mesh.is_at_fixed(v, spokes) {
         Obstacle::FixedPoint
@@ -108,9 +108,9 @@ fn first_of(mesh: &LiveMesh, v: u32, StarBuffer { star, spokes, sight, .. }: &St
 /// How many islands have less than the area of one point, and where the largest of them is.
 fn islands(space: &Space, n_points: usize) -> Option<String> {
     let (region, domain) = (space.region()?, space.domain());
-    let border = domain.border.as_ref()?;
+    let boundary = domain.boundary.as_ref()?;
     let least = domain.area() / n_points as f64;
-    let areas = border.part_areas();
+    let areas = boundary.part_areas();
     let small = || (0..areas.len()).filter(|&part| areas[part] < least);
     let largest = small().max_by(|&a, &b| areas[a].total_cmp(&areas[b]))?;
     let [a, b, c] = *region.parts().nth(largest)?.first()?;

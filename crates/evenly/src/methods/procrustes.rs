@@ -9,15 +9,15 @@
 //!   over a vertex's targets falls for any step between 0 and twice the way to their mean.
 //! - Edges are visited along the Hilbert curve, not in random order: the quality is the same, the time a tenth.
 //! - [`Mode::Fast`] adds momentum, restarted if the energy keeps rising, which the proof does not cover: a better result in a third of the iterations.
-//! - In a rectangle the border is sampled first: corners and evenly spaced points slide along it, and while they find their
+//! - In a rectangle the boundary is sampled first: corners and evenly spaced points slide along it, and while they find their
 //!   place the triangulation is rebuilt, so that the triangles cover the whole domain.
-//! - In a polygon border points are those that the border stops. Every few iterations the triangulation is rebuilt, and triangles whose circumcentre lies outside, or whose
-//!   corners do not see each other, are left out, as the paper does at the start: corners may stay free. Points that come together at the border are moved apart.
+//! - In a polygon boundary points are those that the boundary stops. Every few iterations the triangulation is rebuilt, and triangles whose circumcentre lies outside, or whose
+//!   corners do not see each other, are left out, as the paper does at the start: corners may stay free. Points that come together at the boundary are moved apart.
 //! - Where the density varies, a triangle's model is as large as the density at its centroid wants it (the paper's future work). The energy may then rise.
 //!
 //! Cost: O(n) an iteration, the number of iterations does not grow with n. It promises no smallest distance and no regularity.
 
-mod border;
+mod boundary;
 mod flips;
 mod gaps;
 mod mesh;
@@ -25,7 +25,7 @@ mod model;
 
 use serde::Serialize;
 
-use self::border::Rim;
+use self::boundary::Rim;
 use self::mesh::Mesh;
 use self::model::Sides;
 use super::optimizer::{ITERATIONS, Optimizing};
@@ -185,8 +185,10 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     report.triangulations = 1;
     let n_fixed = points.n_fixed();
     let rim = Rim::of(&domain, field.as_ref().is_some_and(Field::has_gaps), points.n_points());
-    if rim == Rim::Walls && border::is_narrow(domain.size, spacing) {
-        report.notes.push("the rectangle is less than three spacings wide: it is nearly all border, and points are less even there".into());
+    if rim == Rim::Walls && boundary::is_narrow(domain.size, spacing) {
+        report
+            .notes
+            .push("the rectangle is less than three spacings wide: it is nearly all boundary, and points are less even there".into());
     }
     if rim != Rim::None {
         triangulation = rim.settle(triangulation, n_fixed, spacing)?;
@@ -250,7 +252,7 @@ pub fn procrustes(points: &mut PointSet, params: &ProcrustesParams, run: &mut Ru
     }
     let (order, mut positions) = mesh.into_positions(&domain);
     if rim == Rim::Polygon {
-        border::part_crowded(&domain, &mut positions, &order, n_fixed, spacing);
+        boundary::part_crowded(&domain, &mut positions, &order, n_fixed, spacing);
     }
     points.place(&domain, &order, &positions);
     if rim == Rim::Polygon {

@@ -335,7 +335,7 @@ fn push_and_pull_once(points: &mut PointSet, params: &PushPullParams, run: &mut 
         schedule: params.schedule,
         keeps_best: true,
         ends_if_diverging: params.relaxation > params.safe_relaxation(),
-        // In the nooks of a border targets may not be reached at all.
+        // In the nooks of a boundary targets may not be reached at all.
         ends_if_stuck: points.space().region().is_some(),
         ..Plan::of_passes(params.most_passes().min(report.iterations + params.pass_limit(points.n_points())), params.seed)
     };

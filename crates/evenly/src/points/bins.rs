@@ -24,7 +24,7 @@ impl Bins {
     pub fn new(domain: &Domain, reach: f64) -> Self {
         let mut n_bins = (domain.size / reach).floor().max(DVec2::ONE);
         // A polygon may have its parts far from each other.
-        if domain.border.is_some() && n_bins.x * n_bins.y > MOST_BINS {
+        if domain.boundary.is_some() && n_bins.x * n_bins.y > MOST_BINS {
             n_bins = (n_bins * (MOST_BINS / (n_bins.x * n_bins.y)).sqrt()).floor().clamp(DVec2::ONE, DVec2::splat(MOST_BINS.sqrt()));
         }
         let n_bins = n_bins.to_array().map(|n| n as usize);

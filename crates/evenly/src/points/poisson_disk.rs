@@ -25,7 +25,7 @@ use super::eliminate::eliminate;
 use super::point_set::{MAX_POINTS, PointSet};
 use super::random::Random;
 use crate::error::Error;
-use crate::space::{Border, Domain, GRID, Space, snap};
+use crate::space::{Boundary, Domain, GRID, Space, snap};
 
 /// What [`poisson_disk`] can be told.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ pub struct PoissonDiskParams {
     /// No place is farther from all points than this, in input units; `spacing` or more. `None` for `spacing` itself: more makes points fewer, and
     /// more random.
     pub coverage: Option<f64>,
-    /// Whether a polygon's border hides points from each other: distances and coverage then count
+    /// Whether a polygon's boundary hides points from each other: distances and coverage then count
     /// between places that see each other alone.
     pub is_visible: bool,
     /// The same seed gives the same points.
@@ -47,14 +47,14 @@ const LOOSEST: f64 = 8.0;
 
 impl PoissonDiskParams {
     /// The spacing with which about `n_points` points fit, and seed 0: on a torus sqrt(0.697 A / n), but no more than its shorter side, in a rectangle a
-    /// little more, as its border takes more points. How many there will be is chance: in a domain that is many spacings wide with a standard
+    /// little more, as its boundary takes more points. How many there will be is chance: in a domain that is many spacings wide with a standard
     /// deviation of 0.23 sqrt(n).
     pub fn for_about(space: &Space, n_points: usize) -> Self {
         // In square roots of the area over n, which do not underflow.
         let unit = space.hex_spacing(n_points.max(1)) * 0.75f64.sqrt().sqrt();
-        let border = if space.is_periodic() { 0.0 } else { ON_BORDER * space.perimeter() / unit / n_points.max(1) as f64 };
-        // n = DENSITY A / spacing^2 + ON_BORDER perimeter / spacing.
-        let spacing = unit * 0.5 * (border + (border * border + 4.0 * DENSITY).sqrt());
+        let boundary = if space.is_periodic() { 0.0 } else { ON_BOUNDARY * space.perimeter() / unit / n_points.max(1) as f64 };
+        // n = DENSITY A / spacing^2 + ON_BOUNDARY perimeter / spacing.
+        let spacing = unit * 0.5 * (boundary + (boundary * boundary + 4.0 * DENSITY).sqrt());
         let [width, height] = space.size();
         let widest = if space.is_periodic() { width.min(height) } else { f64::INFINITY };
         Self { spacing: spacing.min(widest), coverage: None, is_visible: false, seed: 0 }
@@ -86,16 +86,16 @@ impl PoissonDiskParams {
     }
 }
 
-/// The points of a maximal set in an area of one squared spacing, and further ones on a border as long as the spacing.
+/// The points of a maximal set in an area of one squared spacing, and further ones on a boundary as long as the spacing.
 const DENSITY: f64 = 0.697;
-const ON_BORDER: f64 = 0.228;
+const ON_BOUNDARY: f64 = 0.228;
 /// What rounding may take from a length, relative to it.
 const ROUNDING: f64 = 1e-15;
 
 /// Checks that as many points can be made as fit at random with this spacing, positive and finite, in input units.
 pub(super) fn validate_spacing(space: &Space, spacing: f64) -> Result<(), Error> {
     let [width, height] = space.size().map(|side| side / spacing);
-    let most = DENSITY * width * height * space.fullness() + ON_BORDER * space.perimeter() / spacing;
+    let most = DENSITY * width * height * space.fullness() + ON_BOUNDARY * space.perimeter() / spacing;
     // Chance has its way with the last of them.
     if most > 1.001 * MAX_POINTS as f64 {
         return Err(Error::TooManyPoints(most.min(1e15) as usize, MAX_POINTS));
@@ -112,7 +112,7 @@ pub(super) fn rounding_margin(space: &Space, spacing: f64) -> f64 {
     ROUNDING + 2.0 * space.resolution() / spacing
 }
 
-/// Random points that stand in rows of cells: no two nearer than the spacing, and no place of the domain, its border included, farther from all of
+/// Random points that stand in rows of cells: no two nearer than the spacing, and no place of the domain, its boundary included, farther from all of
 /// them than the coverage radius.
 ///
 /// # Errors
@@ -162,7 +162,7 @@ pub fn poisson_disk_around(points: &PointSet, params: &PoissonDiskParams) -> Res
 fn require_few_cells(domain: &Domain, spacing: f64) -> Result<(), Error> {
     const MOST: f64 = 2e8;
     let n_cells = 2.0 * domain.size.x / spacing * (domain.size.y / spacing);
-    if domain.border.is_some() && n_cells > MOST {
+    if domain.boundary.is_some() && n_cells > MOST {
         let text =
             format!("maximal sets take {n_cells:.1e} cells here, as the polygon fills so little of its frame: sample its parts one by one");
         return Err(Error::InvalidSpace(text));
@@ -311,7 +311,7 @@ impl Darts {
         let is_on_square = level <= KEPT || f64::from(self.areas[cell]) * self.random.unit() < self.area(level);
         if is_on_square {
             let dart = self.dart(level);
-            let is_inside = self.cells.domain.border.as_ref().is_none_or(|border| border.contains(dart));
+            let is_inside = self.cells.domain.boundary.as_ref().is_none_or(|boundary| boundary.contains(dart));
             if is_inside && self.is_farther(cell, dart, self.conflict.max(self.coverage)) {
                 let point = self.displaced(cell, dart);
                 self.cells.put(point, self.coverage);
@@ -338,20 +338,20 @@ impl Darts {
         snap(square + 0.5 * self.side(level) * DVec2::new(x, self.random.signed()))
     }
 
-    /// Whether all of a square lies beyond a border; of a small one its centre.
+    /// Whether all of a square lies beyond a boundary; of a small one its centre.
     fn is_outside(&self, centre: DVec2, half: DVec2, level: u8) -> bool {
-        let is = |border: &Arc<Border>| {
-            if level >= FINE { !border.contains(snap(centre)) } else { border.is_outside(centre - half, centre + half) }
+        let is = |boundary: &Arc<Boundary>| {
+            if level >= FINE { !boundary.contains(snap(centre)) } else { boundary.is_outside(centre - half, centre + half) }
         };
-        self.cells.domain.border.as_ref().is_some_and(is)
+        self.cells.domain.boundary.as_ref().is_some_and(is)
     }
 
     /// Whether a point sees a square: all of it, or of a small one what matters.
     fn is_seen(&self, point: DVec2, centre: DVec2, half: DVec2, level: u8) -> bool {
-        self.cells.walls.as_ref().is_none_or(|border| {
-            let is_open = !border.reaches(point.min(centre - half), point.max(centre + half));
-            // A centre on the border itself is seen as what lies before it is.
-            is_open || level >= FINE && (level >= FINEST || border.sees(point, centre + BEFORE * (point - centre)))
+        self.cells.walls.as_ref().is_none_or(|boundary| {
+            let is_open = !boundary.reaches(point.min(centre - half), point.max(centre + half));
+            // A centre on the boundary itself is seen as what lies before it is.
+            is_open || level >= FINE && (level >= FINEST || boundary.sees(point, centre + BEFORE * (point - centre)))
         })
     }
 

@@ -116,8 +116,8 @@ fn warp_group(points: &mut [Indexed], plan: Plan, source: Cell, target: Cell) {
     } else {
         cut_by_rank(points, share_below(points, plan.cells, target.size(), axis), source, axis)
     };
-    let border = plan.cut(target, axis, n_below as f64 / n as f64);
-    let targets = target.parts(axis, border, border);
+    let boundary = plan.cut(target, axis, n_below as f64 / n as f64);
+    let targets = target.parts(axis, boundary, boundary);
     let (below, above) = points.split_at_mut(n_below);
     let mut lower = || warp_group(below, plan, sources[0], targets[0]);
     let mut upper = || warp_group(above, plan, sources[1], targets[1]);
@@ -149,8 +149,8 @@ fn cut_in_the_middle(points: &mut [Indexed], plan: Plan, source: Cell, axis: usi
     let found = points.iter().filter(|(p, _)| p[axis] < middle).count();
     let n_below = found.clamp(points.len() / 4, points.len() - points.len() / 4);
     let [last_below, first_above] = select(points, n_below, axis);
-    let border = if n_below == found { middle } else { 0.5 * (last_below + first_above) };
-    (n_below, source.parts(axis, border, border))
+    let boundary = if n_below == found { middle } else { 0.5 * (last_below + first_above) };
+    (n_below, source.parts(axis, boundary, boundary))
 }
 
 /// The share of a small group that goes below the cut: two to three fifths by chance, or, as if its points stood in columns of square
@@ -172,7 +172,7 @@ fn share_below(points: &[Indexed], cells: Cells, target: DVec2, axis: usize) -> 
 /// Divides a small group by rank: this share below, and the others above.
 ///
 /// Uniform points stay uniform in both sources, and those of one half do not depend on the other's: the two would crowd at
-/// their common border otherwise.
+/// their common boundary otherwise.
 fn cut_by_rank(points: &mut [Indexed], share: f64, source: Cell, axis: usize) -> (usize, [Cell; 2]) {
     let n = points.len();
     let n_below = ((n as f64 * share).round() as usize).clamp(1, n - 1);

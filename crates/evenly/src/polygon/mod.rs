@@ -17,9 +17,9 @@ use crate::error::Error;
 use crate::space::{Domain, Rectangle, Region, Space};
 use crate::triangulation::{Crossing, Graph, HalfEdges, Planar, next, planar};
 
-/// A bounded domain with a border of straight segments. It may have holes and several parts, and parts may touch in points.
+/// A bounded domain with a boundary of straight segments. It may have holes and several parts, and parts may touch in points.
 ///
-/// Its border is clean: no segment crosses another, no corner is there twice in a row, and none lies on a straight line, unless another ring touches it there.
+/// Its boundary is clean: no segment crosses another, no corner is there twice in a row, and none lies on a straight line, unless another ring touches it there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     rings: Vec<Vec<[f64; 2]>>,
@@ -29,8 +29,8 @@ pub struct Polygon {
     /// Distinct corners in normalised coordinates, and as they were given.
     corners: Vec<DVec2>,
     given: Vec<[f64; 2]>,
-    /// The border's segments, by their corners; the inside is on their left.
-    border: Vec<[u32; 2]>,
+    /// The boundary's segments, by their corners; the inside is on their left.
+    boundary: Vec<[u32; 2]>,
 }
 
 /// Which places rings enclose.
@@ -137,8 +137,8 @@ impl Polygon {
         let Union { rings, n_doubled, shared_area } = union(&figures);
         let rings: Vec<Vec<u32>> =
             rings.iter().map(|ring| ring.iter().map(|&at| corners.number(at, || domain.restore(at))).collect()).collect();
-        let border: Vec<[u32; 2]> = rings.iter().flat_map(|ring| segments(ring)).collect();
-        let planar = planar(Graph { points: &corners.places, border: &border, lines: &[] })
+        let boundary: Vec<[u32; 2]> = rings.iter().flat_map(|ring| segments(ring)).collect();
+        let planar = planar(Graph { points: &corners.places, boundary: &boundary, lines: &[] })
             .map_err(|Crossing(crossed)| crosses(&corners.inputs, crossed[0]))?;
         if planar.half_edges.n_triangles() == 0 {
             return nothing(given.iter().flat_map(|ring| ring.first()).next().copied().unwrap_or_default());
@@ -165,14 +165,14 @@ impl Polygon {
             repairs.push(format!("{} by two rings: left out", counted(n_shared, "segment is shared", "segments are shared")));
         }
 
-        // Only what is on the border is a corner.
+        // Only what is on the boundary is a corner.
         let loops = loops(&planar);
         let rings = loops.iter().map(|ring| ring.iter().map(|&v| corners.inputs[v as usize]).collect()).collect();
-        let border: Vec<[u32; 2]> = loops.iter().flat_map(|ring| segments(ring)).collect();
+        let boundary: Vec<[u32; 2]> = loops.iter().flat_map(|ring| segments(ring)).collect();
         let mut kept = Corners::default();
-        let border =
-            border.into_iter().map(|ends| ends.map(|v| kept.number(corners.places[v as usize], || corners.inputs[v as usize]))).collect();
-        Ok(Self { rings, frame, area: 0.5 * twice_inside * unit * unit, repairs, corners: kept.places, given: kept.inputs, border })
+        let boundary =
+            boundary.into_iter().map(|ends| ends.map(|v| kept.number(corners.places[v as usize], || corners.inputs[v as usize]))).collect();
+        Ok(Self { rings, frame, area: 0.5 * twice_inside * unit * unit, repairs, corners: kept.places, given: kept.inputs, boundary })
     }
 
     /// The rings, in input units, without a closing point: the inside is on their left, so outer ones run counter-clockwise, and holes clockwise.
@@ -223,29 +223,29 @@ impl Polygon {
         &self.given
     }
 
-    /// The border's segments, by their corners; the inside is on their left.
-    pub(crate) fn border(&self) -> &[[u32; 2]] {
-        &self.border
+    /// The boundary's segments, by their corners; the inside is on their left.
+    pub(crate) fn boundary(&self) -> &[[u32; 2]] {
+        &self.boundary
     }
 }
 
 impl From<&Polygon> for Space {
     /// The inside of the polygon, for points.
     fn from(polygon: &Polygon) -> Self {
-        let Polygon { corners, border, .. } = polygon;
-        // Its border is clean, so nothing crosses.
-        let inside = planar(Graph { points: corners, border, lines: &[] }).unwrap_or_default();
+        let Polygon { corners, boundary, .. } = polygon;
+        // Its boundary is clean, so nothing crosses.
+        let inside = planar(Graph { points: corners, boundary, lines: &[] }).unwrap_or_default();
         let part_of = inside.half_edges.components();
         let mut parts = vec![Vec::new(); part_of.iter().max().map_or(0, |&last| last as usize + 1)];
         for (corners, &part) in inside.half_edges.triangles().zip(&part_of) {
             parts[part as usize].push(corners.map(|v| inside.positions[v as usize]));
         }
         // Each segment belongs to the part on its left.
-        let half_edges = (0..inside.half_edges.origin.len() as u32).filter(|&h| inside.half_edges.is_border(h));
+        let half_edges = (0..inside.half_edges.origin.len() as u32).filter(|&h| inside.half_edges.is_boundary(h));
         let ends = |h: u32| [inside.half_edges.origin[h as usize], inside.half_edges.target(h)].map(|v| inside.source[v as usize]);
         let by_ends: HashMap<[u32; 2], u32> = half_edges.map(|h| (ends(h), part_of[h as usize / 3])).collect();
         let part = |ends: &[u32; 2]| by_ends.get(ends).copied().unwrap_or_default();
-        let segments = border.iter().map(|ends| (ends.map(|v| corners[v as usize]), part(ends))).collect();
+        let segments = boundary.iter().map(|ends| (ends.map(|v| corners[v as usize]), part(ends))).collect();
         Region::new(polygon.frame, polygon.rings.clone(), polygon.area, parts, segments).into()
     }
 }
@@ -283,12 +283,12 @@ fn segments(ring: &[u32]) -> impl Iterator<Item = [u32; 2]> {
     (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]])
 }
 
-/// The rings of points around a triangulation's border, with the inside on their left; each begins with its first point, and they come in the order of these: so what is clean stays as it is.
+/// The rings of points around a triangulation's boundary, with the inside on their left; each begins with its first point, and they come in the order of these: so what is clean stays as it is.
 fn loops(planar: &Planar) -> Vec<Vec<u32>> {
     let Planar { half_edges, source, .. } = planar;
     let mut is_seen = vec![false; half_edges.origin.len()];
     let mut loops = Vec::new();
-    for start in (0..half_edges.origin.len() as u32).filter(|&h| half_edges.is_border(h)) {
+    for start in (0..half_edges.origin.len() as u32).filter(|&h| half_edges.is_boundary(h)) {
         let mut ring = Vec::new();
         let mut h = start;
         while !std::mem::replace(&mut is_seen[h as usize], true) {
@@ -305,10 +305,10 @@ fn loops(planar: &Planar) -> Vec<Vec<u32>> {
     loops
 }
 
-/// The half-edge of the border that leaves where `h`, on the border, arrives.
+/// The half-edge of the boundary that leaves where `h`, on the boundary, arrives.
 fn following(half_edges: &HalfEdges, h: u32) -> u32 {
     let mut at = next(h);
-    while !half_edges.is_border(at) {
+    while !half_edges.is_boundary(at) {
         at = next(half_edges.twin[at as usize]);
     }
     at

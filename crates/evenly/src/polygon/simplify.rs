@@ -15,7 +15,7 @@ use crate::predicates::is_left_turn;
 use crate::space::{SegmentTree, nearest, snap};
 
 impl Polygon {
-    /// The polygon with fewer corners: no place of its border is farther than `tolerance`, in input units,
+    /// The polygon with fewer corners: no place of its boundary is farther than `tolerance`, in input units,
     /// from the new one. Each ring stays, keeps its area, and meets no other.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ struct Collapse {
 
 impl Rings {
     fn new(polygon: &Polygon) -> Self {
-        let first: Vec<[DVec2; 2]> = polygon.border.iter().map(|ends| ends.map(|v| polygon.corners[v as usize])).collect();
+        let first: Vec<[DVec2; 2]> = polygon.boundary.iter().map(|ends| ends.map(|v| polygon.corners[v as usize])).collect();
         let (mut next, mut previous, mut starts) = (Vec::new(), Vec::new(), Vec::new());
         for ring in &polygon.rings {
             let (start, n) = (next.len() as u32, ring.len() as u32);
@@ -216,8 +216,8 @@ impl Rings {
         (best.0 <= self.tolerance).then_some(Collapse { corners: [a, b, c, d], e: best.1, deviation: best.0 })
     }
 
-    /// How far the first corners around are from what becomes of the border with `e` instead of `b` and `c`,
-    /// and `e` from the first border. Each corner is compared with the segment that stands for its own, and
+    /// How far the first corners around are from what becomes of the boundary with `e` instead of `b` and `c`,
+    /// and `e` from the first boundary. Each corner is compared with the segment that stands for its own, and
     /// with those before and after: so no others need be asked later.
     fn deviation(&self, [a, b, c, d]: [u32; 4], e: DVec2) -> f64 {
         let mut corners = vec![a];

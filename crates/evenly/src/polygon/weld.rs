@@ -29,7 +29,7 @@ impl Polygon {
         let ring = |ring: &Vec<[f64; 2]>| {
             let mut welded = Vec::new();
             for _ in ring {
-                let from = stands_for[self.border[segment as usize][0] as usize];
+                let from = stands_for[self.boundary[segment as usize][0] as usize];
                 let between = on_segments.get(&segment).map(Vec::as_slice).unwrap_or_default();
                 welded.extend([from].iter().chain(between).map(|&v| self.given[v as usize]));
                 segment += 1;
@@ -49,14 +49,14 @@ impl Polygon {
 
     /// The corners that nearly lie on each segment, from its start to its end.
     fn corners_on_segments(&self, stands_for: &[u32], reach: f64) -> HashMap<u32, Vec<u32>> {
-        let ends: Vec<[DVec2; 2]> = self.border.iter().map(|ends| ends.map(|v| self.corners[v as usize])).collect();
+        let ends: Vec<[DVec2; 2]> = self.boundary.iter().map(|ends| ends.map(|v| self.corners[v as usize])).collect();
         let tree = SegmentTree::new(&ends);
         let mut on_segments: HashMap<u32, Vec<u32>> = HashMap::new();
         for v in (0..self.corners.len() as u32).filter(|&v| stands_for[v as usize] == v) {
             let p = self.corners[v as usize];
             let is_near = |low: DVec2, high: DVec2| p.distance(p.clamp(low, high)) < reach;
             tree.find(is_near, |ends, segment| {
-                let is_its_own = self.border[segment as usize].iter().any(|&end| stands_for[end as usize] == v);
+                let is_its_own = self.boundary[segment as usize].iter().any(|&end| stands_for[end as usize] == v);
                 if !is_its_own && p.distance(nearest(p, ends)) < reach {
                     on_segments.entry(segment).or_default().push(v);
                 }

@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn a_place_that_cannot_be_reached_leaves_the_mesh_as_it_was() {
         let surface = star();
-        let (features, sizes) = (Features::borders(&surface), vec![1.0; surface.n_vertices()]);
+        let (features, sizes) = (Features::boundaries(&surface), vec![1.0; surface.n_vertices()]);
         for (n, seed) in (40..80).zip(0..) {
             let start =
                 start(Wanted { surface: &surface, features: &features, sizes: &sizes, n_points: n, has_rows: false, given: &[], seed })

@@ -89,7 +89,7 @@ mod tests {
         let closed = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]];
         for triangles in [closed.clone(), closed[..1].to_vec()] {
             let surface = Surface::new(&TriangleMesh { vertices: vertices.clone(), triangles, attributes: Vec::new() }).unwrap();
-            let (features, sizes, n_points) = (Features::borders(&surface), vec![1.0; surface.n_vertices()], 2000);
+            let (features, sizes, n_points) = (Features::boundaries(&surface), vec![1.0; surface.n_vertices()], 2000);
             let wanted = Wanted { surface: &surface, features: &features, sizes: &sizes, n_points, has_rows: false, given: &[], seed: 1 };
             let mut live = LiveSurface::new(&surface, &features, &sizes, start(wanted).unwrap().unwrap());
             let cells = live.divide();

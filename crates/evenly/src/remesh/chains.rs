@@ -1,4 +1,4 @@
-//! Points along creases and borders: evenly spaced from corner to corner, before anything else, and there they stay.
+//! Points along creases and boundaries: evenly spaced from corner to corner, before anything else, and there they stay.
 //!
 //! Where two chains meet at a sharp angle, the points on both alternate: the triangles between them have right angles then, where points side by side would leave obtuse ones.
 

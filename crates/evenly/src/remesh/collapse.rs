@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::draft::Draft;
 use super::shape::Guard;
-use crate::triangulation::{BORDER, next, prev};
+use crate::triangulation::{BOUNDARY, next, prev};
 
 /// Vertices have so many neighbours at most.
 const MOST_NEIGHBOURS: usize = 12;
@@ -23,37 +23,37 @@ impl Draft<'_> {
         ring.iter().for_each(|&h| self.mesh.origin[h as usize] = u);
         let mut touched = vec![u];
         // In place of each triangle at the edge its two other sides become one.
-        for h in [h, t].into_iter().filter(|&h| h != BORDER) {
+        for h in [h, t].into_iter().filter(|&h| h != BOUNDARY) {
             let (n, p) = (next(h), prev(h));
             let apex = self.mesh.origin[p as usize];
             let [x, y] = [n, p].map(|side| self.mesh.twin[side as usize]);
             let is_crease = self.is_crease[n as usize] || self.is_crease[p as usize];
             for (one, other) in [(x, y), (y, x)] {
-                if one != BORDER {
+                if one != BOUNDARY {
                     self.mesh.twin[one as usize] = other;
                     self.is_crease[one as usize] = is_crease;
                 }
             }
             // One of the two sides has a neighbour, or the triangle would have been alone.
             let leaves_apex = |side: u32| if self.mesh.origin[side as usize] == apex { side } else { next(side) };
-            let inner = if x != BORDER { x } else { y };
+            let inner = if x != BOUNDARY { x } else { y };
             self.outgoing[apex as usize] = leaves_apex(inner);
             self.outgoing[u as usize] = if self.mesh.origin[inner as usize] == u { inner } else { next(inner) };
             touched.push(apex);
             for k in 3 * (h / 3)..3 * (h / 3) + 3 {
-                self.mesh.origin[k as usize] = BORDER;
-                self.mesh.twin[k as usize] = BORDER;
+                self.mesh.origin[k as usize] = BOUNDARY;
+                self.mesh.twin[k as usize] = BOUNDARY;
             }
         }
-        self.outgoing[v as usize] = BORDER;
+        self.outgoing[v as usize] = BOUNDARY;
         self.n_live -= 1;
         self.n_loose -= usize::from(self.is_loose(v));
-        touched.into_iter().for_each(|v| self.start_at_border(v));
+        touched.into_iter().for_each(|v| self.start_at_boundary(v));
         true
     }
 
-    fn is_on_border(&self, v: u32) -> bool {
-        self.mesh.twin[self.outgoing[v as usize] as usize] == BORDER
+    fn is_on_boundary(&self, v: u32) -> bool {
+        self.mesh.twin[self.outgoing[v as usize] as usize] == BOUNDARY
     }
 
     fn can_collapse(&mut self, h: u32, v: u32, u: u32, least_turn: f64) -> bool {
@@ -64,7 +64,7 @@ impl Draft<'_> {
             return false;
         }
         let t = self.mesh.twin[h as usize];
-        let apexes = [h, t].map(|h| if h == BORDER { BORDER } else { self.mesh.origin[prev(h) as usize] });
+        let apexes = [h, t].map(|h| if h == BOUNDARY { BOUNDARY } else { self.mesh.origin[prev(h) as usize] });
         // The only common neighbours are the apexes.
         self.round += 1;
         let (mut n_neighbours, mut n_common) = ([0, 0], 0);
@@ -83,7 +83,7 @@ impl Draft<'_> {
                 let other = self.mesh.target(h);
                 mark(self, other);
                 let turned = self.mesh.twin[prev(h) as usize];
-                if turned == BORDER {
+                if turned == BOUNDARY {
                     let last = self.mesh.origin[prev(h) as usize];
                     mark(self, last);
                     break;
@@ -94,22 +94,22 @@ impl Draft<'_> {
                 h = turned;
             }
         }
-        let n_apexes = apexes.iter().filter(|&&apex| apex != BORDER).count();
-        let is_border_edge = n_apexes == 1;
+        let n_apexes = apexes.iter().filter(|&&apex| apex != BOUNDARY).count();
+        let is_boundary_edge = n_apexes == 1;
         if n_common != n_apexes || n_neighbours[0] + n_neighbours[1] > MOST_NEIGHBOURS + 4 {
             return false;
         }
-        if self.is_on_border(v) && (!is_border_edge || n_neighbours[0] + n_neighbours[1] < 5)
-            || n_neighbours[0] + n_neighbours[1] < 7 - 2 * usize::from(is_border_edge)
+        if self.is_on_boundary(v) && (!is_boundary_edge || n_neighbours[0] + n_neighbours[1] < 5)
+            || n_neighbours[0] + n_neighbours[1] < 7 - 2 * usize::from(is_boundary_edge)
         {
             return false;
         }
         // An apex loses a neighbour, and two creases never become one.
-        let first_side = [h, t].into_iter().filter(|&h| h != BORDER);
+        let first_side = [h, t].into_iter().filter(|&h| h != BOUNDARY);
         for h in first_side {
             let apex = self.mesh.origin[prev(h) as usize];
             let n = self.mesh.around(self.outgoing[apex as usize]).count();
-            if n < if self.is_on_border(apex) { 2 } else { 4 } || self.is_crease[next(h) as usize] && self.is_crease[prev(h) as usize] {
+            if n < if self.is_on_boundary(apex) { 2 } else { 4 } || self.is_crease[next(h) as usize] && self.is_crease[prev(h) as usize] {
                 return false;
             }
         }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::shape::{Guard, is_delaunay};
 use crate::surface::{Features, Place, Surface, morton};
-use crate::triangulation::{BORDER, HalfEdges, next, prev};
+use crate::triangulation::{BOUNDARY, HalfEdges, next, prev};
 
 /// A vertex of a draft.
 #[derive(Debug, Clone, Copy)]
@@ -14,7 +14,7 @@ pub(super) struct Vertex {
     pub normal: DVec3,
     /// The wanted spacing there, relative.
     pub size: f64,
-    /// Whether it lies on a crease or a border.
+    /// Whether it lies on a crease or a boundary.
     pub is_on_crease: bool,
     /// Whether it is never taken away.
     pub is_pinned: bool,
@@ -29,9 +29,9 @@ pub(super) struct Draft<'a> {
     pub sizes: &'a [f64],
     pub mesh: HalfEdges,
     pub vertices: Vec<Vertex>,
-    /// A half-edge that leaves each vertex; on a border that which lies there. `BORDER` for a vertex that is gone.
+    /// A half-edge that leaves each vertex; on a boundary that which lies there. `BOUNDARY` for a vertex that is gone.
     pub outgoing: Vec<u32>,
-    /// For each half-edge whether it lies on a crease or a border.
+    /// For each half-edge whether it lies on a crease or a boundary.
     pub is_crease: Vec<bool>,
     /// For each triangle that of the surface in which it lies, until edges between two of these are flipped.
     pub hosts: Vec<u32>,
@@ -53,7 +53,7 @@ impl<'a> Draft<'a> {
         let vertices = (0..surface.n_vertices())
             .map(|v| {
                 // A vertex without triangles is gone.
-                let h = if outgoing[v] == BORDER { 0 } else { outgoing[v] };
+                let h = if outgoing[v] == BOUNDARY { 0 } else { outgoing[v] };
                 let mut weights = [0.0; 3];
                 weights[h as usize % 3] = 1.0;
                 Vertex {
@@ -70,7 +70,7 @@ impl<'a> Draft<'a> {
             surface,
             features,
             sizes,
-            n_live: outgoing.iter().filter(|&&h| h != BORDER).count(),
+            n_live: outgoing.iter().filter(|&&h| h != BOUNDARY).count(),
             n_loose: 0,
             keeps_given: true,
             marks: vec![0; outgoing.len()],
@@ -95,7 +95,7 @@ impl<'a> Draft<'a> {
     }
 
     pub fn is_live(&self, v: u32) -> bool {
-        self.outgoing[v as usize] != BORDER
+        self.outgoing[v as usize] != BOUNDARY
     }
 
     /// Whether it lies on a crease, and is to be taken away.
@@ -139,9 +139,9 @@ impl<'a> Draft<'a> {
         let t = self.mesh.twin[h as usize];
         // Of (p q r), and of (q p s) across, the half at q, and at p, is a new triangle.
         let half = self.halve(h, m);
-        self.mesh.twin[h as usize] = BORDER;
+        self.mesh.twin[h as usize] = BOUNDARY;
         self.outgoing[m as usize] = half;
-        if t != BORDER {
+        if t != BOUNDARY {
             let other = self.halve(t, m);
             self.join(h, other);
             self.join(t, half);
@@ -180,7 +180,7 @@ impl<'a> Draft<'a> {
         for (edge, new) in [(first + 1, others[0]), (first + 2, others[1])] {
             let across = self.mesh.twin[edge as usize];
             (self.mesh.twin[new as usize], self.is_crease[new as usize]) = (across, self.is_crease[edge as usize]);
-            if across != BORDER {
+            if across != BOUNDARY {
                 self.mesh.twin[across as usize] = new;
             }
             self.is_crease[edge as usize] = false;
@@ -192,7 +192,7 @@ impl<'a> Draft<'a> {
         self.outgoing[m as usize] = first + 2;
         [a, b, c].into_iter().zip([first, others[0], others[1]]).for_each(|(v, h)| {
             self.outgoing[v as usize] = h;
-            self.start_at_border(v);
+            self.start_at_boundary(v);
         });
         m
     }
@@ -201,7 +201,7 @@ impl<'a> Draft<'a> {
         let sizes = self.surface.half_edges.triangle(place.face as usize).map(|v| self.sizes[v as usize]);
         let (size, normal) = (place.mean(sizes), self.features.normal(&place));
         self.vertices.push(Vertex { place, normal, size, is_on_crease, is_pinned: false, is_given: false });
-        self.outgoing.push(BORDER);
+        self.outgoing.push(BOUNDARY);
         self.marks.push(0);
         self.n_live += 1;
         self.n_loose += usize::from(is_on_crease);
@@ -211,7 +211,7 @@ impl<'a> Draft<'a> {
     fn push_triangle(&mut self, corners: [u32; 3], host: u32) -> u32 {
         let first = self.mesh.origin.len() as u32;
         self.mesh.origin.extend(corners);
-        self.mesh.twin.extend([BORDER; 3]);
+        self.mesh.twin.extend([BOUNDARY; 3]);
         self.is_crease.extend([false; 3]);
         self.hosts.push(host);
         first
@@ -225,7 +225,7 @@ impl<'a> Draft<'a> {
         self.is_crease[half as usize] = self.is_crease[h as usize];
         self.is_crease[half as usize + 1] = was_crease;
         self.mesh.twin[half as usize + 1] = across;
-        if across != BORDER {
+        if across != BOUNDARY {
             self.mesh.twin[across as usize] = half + 1;
         }
         self.mesh.origin[n as usize] = m;
@@ -242,11 +242,11 @@ impl<'a> Draft<'a> {
         self.mesh.twin[b as usize] = a;
     }
 
-    /// Lets walks around a vertex begin at its border, if it has one.
-    pub(super) fn start_at_border(&mut self, v: u32) {
+    /// Lets walks around a vertex begin at its boundary, if it has one.
+    pub(super) fn start_at_boundary(&mut self, v: u32) {
         let first = self.outgoing[v as usize];
         let mut h = first;
-        while self.mesh.twin[h as usize] != BORDER {
+        while self.mesh.twin[h as usize] != BOUNDARY {
             h = next(self.mesh.twin[h as usize]);
             if h == first {
                 break;
@@ -269,7 +269,7 @@ impl<'a> Draft<'a> {
     fn flip_all(&mut self, suspects: &mut Vec<u32>, may_flip: impl Fn(&Self, [u32; 2]) -> bool, mut show: impl FnMut(&Self, u32)) {
         while let Some(h) = suspects.pop() {
             let t = self.mesh.twin[h as usize];
-            if t == BORDER || self.is_crease[h as usize] || !may_flip(self, [h, t]) || !self.should_flip(h) {
+            if t == BOUNDARY || self.is_crease[h as usize] || !may_flip(self, [h, t]) || !self.should_flip(h) {
                 continue;
             }
             self.flip(h);
@@ -315,13 +315,13 @@ impl<'a> Draft<'a> {
         for (edge, (across, is_crease)) in [(h, of_h), (t, of_t)] {
             self.mesh.twin[edge as usize] = across;
             self.is_crease[edge as usize] = is_crease;
-            if across != BORDER {
+            if across != BOUNDARY {
                 self.mesh.twin[across as usize] = edge;
             }
         }
         for (v, edge) in [(p, next(t)), (q, next(h)), (s, h), (r, t)] {
             self.outgoing[v as usize] = edge;
-            self.start_at_border(v);
+            self.start_at_boundary(v);
         }
     }
 
@@ -329,16 +329,16 @@ impl<'a> Draft<'a> {
     pub fn tidy(&mut self) {
         let mut order: Vec<u32> = (0..self.vertices.len() as u32).filter(|&v| self.is_live(v)).collect();
         order.sort_by_cached_key(|&v| (morton(self.at(v)), v));
-        let mut number = vec![BORDER; self.vertices.len()];
+        let mut number = vec![BOUNDARY; self.vertices.len()];
         (0..).zip(&order).for_each(|(new, &v)| number[v as usize] = new);
-        let mut live: Vec<usize> = (0..self.mesh.n_triangles()).filter(|&t| self.mesh.origin[3 * t] != BORDER).collect();
+        let mut live: Vec<usize> = (0..self.mesh.n_triangles()).filter(|&t| self.mesh.origin[3 * t] != BOUNDARY).collect();
         live.sort_by_cached_key(|&t| self.mesh.triangle(t).map(|v| number[v as usize]).into_iter().min());
-        let mut slots = vec![BORDER; self.mesh.n_triangles()];
+        let mut slots = vec![BOUNDARY; self.mesh.n_triangles()];
         (0..).zip(&live).for_each(|(new, &t)| slots[t] = new);
         let all = || live.iter().flat_map(|&t| 3 * t..3 * t + 3);
         let twin = |h: usize| {
             let twin = self.mesh.twin[h];
-            if twin == BORDER { BORDER } else { 3 * slots[twin as usize / 3] + twin % 3 }
+            if twin == BOUNDARY { BOUNDARY } else { 3 * slots[twin as usize / 3] + twin % 3 }
         };
         let mesh = HalfEdges { origin: all().map(|h| number[self.mesh.origin[h] as usize]).collect(), twin: all().map(twin).collect() };
         self.is_crease = all().map(|h| self.is_crease[h]).collect();

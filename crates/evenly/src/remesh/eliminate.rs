@@ -4,7 +4,7 @@
 
 use super::draft::Draft;
 use super::queue::Queue;
-use crate::triangulation::{BORDER, next, prev};
+use crate::triangulation::{BOUNDARY, next, prev};
 
 /// Edges are split until none is longer than this, in the wanted spacings, and there are so many times the wanted vertices.
 const LONGEST: f64 = 1.0;
@@ -30,7 +30,7 @@ pub(super) fn subdivide(draft: &mut Draft, spacing: f64, n_wanted: usize, seed: 
             queue.push(1.0 / length, [draft.mesh.origin[h as usize], draft.mesh.target(h)]);
         }
     };
-    let all = (0..draft.mesh.origin.len() as u32).filter(|&h| draft.mesh.twin[h as usize] == BORDER || draft.mesh.twin[h as usize] > h);
+    let all = (0..draft.mesh.origin.len() as u32).filter(|&h| draft.mesh.twin[h as usize] == BOUNDARY || draft.mesh.twin[h as usize] > h);
     all.for_each(|h| add(&mut queue, draft, h));
     let enough = CHOICE * n_wanted as f64;
     let most = MOST_TIMES * n_wanted.max(100) + draft.n_live;
@@ -48,7 +48,7 @@ pub(super) fn subdivide(draft: &mut Draft, spacing: f64, n_wanted: usize, seed: 
         draft.legalize_within(&mut suspects, |draft, h| add(&mut queue, draft, h));
         ring.clear();
         ring.extend(draft.mesh.around(draft.outgoing[m as usize]).flat_map(|h| [h, prev(h)]));
-        ring.retain(|&h| draft.mesh.twin[h as usize] == BORDER || draft.mesh.origin[h as usize] == m);
+        ring.retain(|&h| draft.mesh.twin[h as usize] == BOUNDARY || draft.mesh.origin[h as usize] == m);
         ring.iter().for_each(|&h| add(&mut queue, draft, h));
     }
 }
@@ -84,8 +84,8 @@ fn collapse_all(draft: &mut Draft, n_wanted: usize, turn: f64, seed: u64) {
         let share = if is_loose { LOOSE } else { 1.0 };
         queue.push(share * draft.length(h) * (1.0 + RANDOM * unit(seed, ends)), ends);
     };
-    let is_first = |draft: &Draft, h: u32| draft.mesh.twin[h as usize] == BORDER || h < draft.mesh.twin[h as usize];
-    let all = (0..draft.mesh.origin.len() as u32).filter(|&h| draft.mesh.origin[h as usize] != BORDER && is_first(draft, h));
+    let is_first = |draft: &Draft, h: u32| draft.mesh.twin[h as usize] == BOUNDARY || h < draft.mesh.twin[h as usize];
+    let all = (0..draft.mesh.origin.len() as u32).filter(|&h| draft.mesh.origin[h as usize] != BOUNDARY && is_first(draft, h));
     all.for_each(|h| add(&mut queue, draft, h));
     let (mut suspects, mut ring) = (Vec::new(), Vec::new());
     while let Some([a, b]) = queue.pop() {
@@ -105,7 +105,7 @@ fn collapse_all(draft: &mut Draft, n_wanted: usize, turn: f64, seed: u64) {
         draft.legalize(&mut suspects, |draft, h| add(&mut queue, draft, h));
         ring.clear();
         ring.extend(draft.mesh.around(draft.outgoing[kept as usize]).flat_map(|h| [h, prev(h)]));
-        ring.retain(|&h| draft.mesh.twin[h as usize] == BORDER || draft.mesh.origin[h as usize] == kept);
+        ring.retain(|&h| draft.mesh.twin[h as usize] == BOUNDARY || draft.mesh.origin[h as usize] == kept);
         ring.iter().for_each(|&h| add(&mut queue, draft, h));
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::cells::Territory;
 use super::live::LiveSurface;
 use super::shape::{Guard, is_delaunay};
-use crate::triangulation::{BORDER, Outside, Spoke, next, prev};
+use crate::triangulation::{BOUNDARY, Outside, Spoke, next, prev};
 
 impl LiveSurface<'_> {
     /// Goes around `v`, and flips its spokes until none is to be.
@@ -27,7 +27,7 @@ impl LiveSurface<'_> {
             let after = ring.get(k + 1).unwrap_or(&ring[0]);
             // The sine of the sum of both angles across, up to a factor.
             let sine = (after.squared - spoke.dot) * before.cross + (before.squared - before.dot) * spoke.cross;
-            if sine < 0.0 && spoke.half_edge != BORDER && before.half_edge != BORDER && self.should_flip(spoke.half_edge) {
+            if sine < 0.0 && spoke.half_edge != BOUNDARY && before.half_edge != BOUNDARY && self.should_flip(spoke.half_edge) {
                 return Some(spoke.half_edge);
             }
             before = spoke;
@@ -37,7 +37,7 @@ impl LiveSurface<'_> {
 
     /// Whether the edge of `h` is not Delaunay, and the other diagonal can be.
     fn should_flip(&self, h: u32) -> bool {
-        if self.mesh.twin(h) == BORDER {
+        if self.mesh.twin(h) == BOUNDARY {
             return false;
         }
         let [p, q, r, s] = self.mesh.quadrilateral(h);
@@ -68,7 +68,7 @@ impl LiveSurface<'_> {
             if self.mesh.origin(next(h)) == b || after == b {
                 return true;
             }
-            if turned == first || turned == BORDER {
+            if turned == first || turned == BOUNDARY {
                 return false;
             }
             h = turned;
@@ -108,7 +108,7 @@ fn measure(ring: &mut [Spoke<DVec3>]) {
         let after = ring.get(k + 1).map_or(first, |spoke| spoke.way);
         let spoke = &mut ring[k];
         spoke.squared = spoke.way.length_squared();
-        if spoke.half_edge != BORDER {
+        if spoke.half_edge != BOUNDARY {
             (spoke.dot, spoke.cross) = (spoke.way.dot(after), spoke.way.cross(after).length());
         }
     }

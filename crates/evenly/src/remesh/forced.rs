@@ -3,7 +3,7 @@
 use super::live::LiveSurface;
 use super::polish::Bounds;
 use crate::geometry::triangle::Shape;
-use crate::triangulation::{BORDER, next, prev};
+use crate::triangulation::{BOUNDARY, next, prev};
 
 /// A triangle in such a corner may be worse than its best division by so much, in degrees.
 const SPARE_DEG: f64 = 3.0;
@@ -80,7 +80,7 @@ impl LiveSurface<'_> {
         let mut side = h;
         while !self.is_bond(at, mesh.origin(next(side))) {
             let twin = mesh.twin(side);
-            if twin == BORDER || next(twin) == h {
+            if twin == BOUNDARY || next(twin) == h {
                 break;
             }
             side = next(twin);
@@ -89,7 +89,7 @@ impl LiveSurface<'_> {
         let mut side = prev(h);
         while !self.is_bond(at, mesh.origin(side)) {
             let twin = mesh.twin(side);
-            if twin == BORDER || twin == h {
+            if twin == BOUNDARY || twin == h {
                 break;
             }
             sum += angle(twin);

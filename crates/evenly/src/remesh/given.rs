@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::draft::Draft;
 use crate::error::Error;
 use crate::surface::{Facets, Place, Surface, morton};
-use crate::triangulation::{BORDER, next};
+use crate::triangulation::{BOUNDARY, next};
 
 /// What is so near to an edge, as a part of the triangle's height, lies on it.
 const ON_EDGE: f64 = 1e-8;
@@ -77,7 +77,7 @@ fn locate(draft: &Draft, begin: u32, at: DVec3) -> u32 {
     for _ in 0..draft.mesh.n_triangles() {
         let is_outside = |&h: &u32| {
             let twin = draft.mesh.twin[h as usize];
-            twin != BORDER && draft.hosts[twin as usize / 3] == host && side(draft, h, at) < 0.0
+            twin != BOUNDARY && draft.hosts[twin as usize / 3] == host && side(draft, h, at) < 0.0
         };
         match (3 * t..3 * t + 3).find(is_outside) {
             Some(h) => t = draft.mesh.twin[h as usize] / 3,

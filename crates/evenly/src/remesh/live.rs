@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::cells::Territory;
 use crate::surface::{Features, Surface};
-use crate::triangulation::{BORDER, HalfEdges, Outside, SharedMesh, Spoke, next};
+use crate::triangulation::{BOUNDARY, HalfEdges, Outside, SharedMesh, Spoke, next};
 
 /// The numbers of a vertex' place: position, the surface's normal there, the wanted spacing there relative to the mean, the triangle that holds it, and its weights there.
 pub(super) const NUMBERS: usize = 11;
@@ -37,9 +37,9 @@ impl Vertex {
 pub(super) struct Start {
     pub half_edges: HalfEdges,
     pub vertices: Vec<Vertex>,
-    /// Which vertices stay where they are: those on creases, borders and tips.
+    /// Which vertices stay where they are: those on creases, boundaries and tips.
     pub fixed: Vec<bool>,
-    /// The edges along creases and borders, each by its ends in order, sorted.
+    /// The edges along creases and boundaries, each by its ends in order, sorted.
     pub bonds: Vec<[u32; 2]>,
     /// How many stand where points were given.
     pub n_given: usize,
@@ -189,7 +189,7 @@ impl<'a> LiveSurface<'a> {
         Vertex { at: place.at, normal: self.features.normal(&place), size, face: place.face, weights: place.weights }
     }
 
-    /// Goes once around `v`, counter-clockwise, for the ways to its neighbours. On a border the last spoke has no half-edge.
+    /// Goes once around `v`, counter-clockwise, for the ways to its neighbours. On a boundary the last spoke has no half-edge.
     pub(super) fn walk(&self, v: u32, territory: Territory, ring: &mut Vec<Spoke<DVec3>>) -> Result<(), Outside> {
         ring.clear();
         let at = self.at(v);
@@ -200,7 +200,7 @@ impl<'a> LiveSurface<'a> {
                 return Err(Outside);
             }
             ring.push(Spoke { vertex, half_edge, way: self.at(vertex) - at, ..Spoke::default() });
-            if half_edge == BORDER {
+            if half_edge == BOUNDARY {
                 return Ok(());
             }
             (vertex, half_edge) = self.mesh.turn(half_edge);
@@ -222,7 +222,7 @@ impl<'a> LiveSurface<'a> {
         let (mut vertex, mut half_edge) = (self.mesh.origin(next(first)), first);
         loop {
             show(vertex);
-            if half_edge == BORDER {
+            if half_edge == BOUNDARY {
                 return;
             }
             (vertex, half_edge) = self.mesh.turn(half_edge);

@@ -9,7 +9,7 @@
 //! - The start is not a random set: long edges of the surface are split, and short ones collapsed, until the number is right. Given points, if there are any, come into the
 //!   surface's triangles as vertices, and all others are collapsed.
 //! - Points land on the nearest place to which a walk along the surface leads, never on another sheet; a move that would turn a triangle away from the surface is not made.
-//! - Creases and borders are kept: the points along them come first, and stay.
+//! - Creases and boundaries are kept: the points along them come first, and stay.
 //! - Vertices go from where a crease has too many beside it to where it has too few, and runs that miss little begin again with another seed.
 //! - Where the wanted spacing varies it counts a triangle at a time, so that the bounds on angles hold as they do where it is uniform.
 //!
@@ -72,8 +72,8 @@ pub struct RemeshParams {
     pub n_vertices: usize,
     /// By which rule they find their places; of `eliminate`, which makes points, they stay where the start, or given points, have them.
     pub method: LocalMethod,
-    /// Edges at which the surface turns by more than this are kept if they stand out and are some spacings long, and tips if they can be; borders are in any case; in (0, 180).
-    /// `None` for borders alone.
+    /// Edges at which the surface turns by more than this are kept if they stand out and are some spacings long, and tips if they can be; boundaries are in any case; in (0, 180).
+    /// `None` for boundaries alone.
     pub features_deg: Option<f64>,
     /// Where a vertex of the surface is farther from the mesh than this, in spacings, a vertex is put there, and stays if the targets can be met so; `None` for nowhere.
     pub max_deviation: Option<f64>,
@@ -289,7 +289,7 @@ fn note_given(surface: &Surface, given: &[(Place, f64)], n_points: usize, n_give
         let n = n_points - n_given;
         report
             .notes
-            .push(format!("vertices that did not begin at given points: {n}; creases, borders and the surface's shape have their own"));
+            .push(format!("vertices that did not begin at given points: {n}; creases, boundaries and the surface's shape have their own"));
     }
     let spacing = start::spacing(surface, n_points);
     let n_far = given.iter().filter(|(_, distance)| *distance > spacing).count();

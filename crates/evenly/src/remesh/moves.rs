@@ -8,7 +8,7 @@ use super::live::LiveSurface;
 use super::shape::Guard;
 use crate::points::Random;
 use crate::sweep::Ground;
-use crate::triangulation::{BORDER, Outside, Spoke};
+use crate::triangulation::{BOUNDARY, Outside, Spoke};
 
 /// A move turns no triangle by more than this: the cosine.
 const LEAST_TURN: f64 = 0.3;
@@ -68,7 +68,7 @@ impl LiveSurface<'_> {
         let room = ROOM * 0.5 * 3f64.sqrt() * size * size;
         let guard = Guard::after(self.n_blocked(v));
         let is_allowed = |(k, spoke): (usize, &Spoke<DVec3>)| {
-            if spoke.half_edge == BORDER {
+            if spoke.half_edge == BOUNDARY {
                 return true;
             }
             let after = ring.get(k + 1).unwrap_or(&ring[0]);

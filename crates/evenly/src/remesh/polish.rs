@@ -8,7 +8,7 @@ use super::live::{LiveSurface, Vertex};
 use crate::geometry::triangle::Shape;
 use crate::points::Random;
 use crate::sweep::Ground;
-use crate::triangulation::{BORDER, Spoke};
+use crate::triangulation::{BOUNDARY, Spoke};
 
 /// An obtuse angle counts so many times as much as one that only misses its target; and so does what is half a degree below.
 const OBTUSE: f64 = 100.0;
@@ -104,7 +104,7 @@ impl LiveSurface<'_> {
     /// How bad the triangles around a vertex are, if it is at a place.
     fn badness_around(&self, bounds: Bounds, at: DVec3, ring: &[Spoke<DVec3>]) -> f64 {
         let corner = |spoke: &Spoke<DVec3>| self.at(spoke.vertex);
-        let all = ring.iter().enumerate().filter(|(_, spoke)| spoke.half_edge != BORDER);
+        let all = ring.iter().enumerate().filter(|(_, spoke)| spoke.half_edge != BOUNDARY);
         all.map(|(k, spoke)| bounds.badness(at, corner(spoke), corner(ring.get(k + 1).unwrap_or(&ring[0])))).sum()
     }
 
@@ -159,12 +159,12 @@ impl LiveSurface<'_> {
         let after = |k: usize| &ring[if k + 1 == ring.len() { 0 } else { k + 1 }];
         let corners = |k: usize| [v, ring[k].vertex, after(k).vertex].map(|v| self.at(v));
         let is_obtuse = |&k: &usize| Shape::of_space(corners(k)).extreme_angles_deg()[1] > RIGHT_DEG;
-        (0..ring.len()).filter(|&k| ring[k].half_edge != BORDER).filter(is_obtuse).count()
+        (0..ring.len()).filter(|&k| ring[k].half_edge != BOUNDARY).filter(is_obtuse).count()
     }
 
     fn flip_if_better(&self, h: u32, bounds: Bounds) {
         let t = self.mesh.twin(h);
-        if t == BORDER {
+        if t == BOUNDARY {
             return;
         }
         let corners = self.mesh.quadrilateral(h);

@@ -66,7 +66,7 @@ pub fn sample_surface(surface: &Surface, params: &SampleParams, run: &mut RunCon
     };
     validate_sizes(surface, sizes)?;
     let relative = relative_sizes(surface, sizes);
-    let features = Features::borders(surface);
+    let features = Features::boundaries(surface);
     let done = |method, places: Vec<Place>| {
         let points: Vec<SurfacePoint> = places.into_iter().map(|place| SurfacePoint::new(surface, &features, &place)).collect();
         let mut report = Report::new(method, points.len());

@@ -112,7 +112,7 @@ pub(super) fn settle<'a>(
 fn conclude(live: &mut LiveSurface, bounds: Bounds, report: &mut Report) {
     let missed = live.missed(bounds);
     if missed.n_others > 0 {
-        report.notes.push("vertices that stay where they are, on creases, borders and tips, keep the targets from being reached".into());
+        report.notes.push("vertices that stay where they are, on creases, boundaries and tips, keep the targets from being reached".into());
     } else {
         report.outcome = if missed.forced.is_empty() { Outcome::Converged } else { Outcome::Forced };
     }

@@ -10,12 +10,12 @@ use super::ground::SurfaceBuffer;
 use super::live::LiveSurface;
 use crate::star::{Senses, Star, Wedge};
 use crate::sweep::Ground;
-use crate::triangulation::{BORDER, Outside, Spoke, slope};
+use crate::triangulation::{BOUNDARY, Outside, Spoke, slope};
 
 impl LiveSurface<'_> {
     /// Turns the spokes around `v` into a star.
     pub(super) fn fill(&self, v: u32, senses: &Senses, star: &mut Star, spokes: &mut Vec<Spoke<DVec3>>) {
-        if spokes[spokes.len() - 1].half_edge == BORDER {
+        if spokes[spokes.len() - 1].half_edge == BOUNDARY {
             close(spokes);
         }
         let scale = 1.0 / self.spacing();
@@ -123,7 +123,7 @@ impl LiveSurface<'_> {
     }
 }
 
-/// A fan at a border is seen once more, as in a mirror, so that the star goes all around.
+/// A fan at a boundary is seen once more, as in a mirror, so that the star goes all around.
 fn close(spokes: &mut Vec<Spoke<DVec3>>) {
     let n = spokes.len();
     for k in (0..n - 1).rev() {

@@ -50,18 +50,18 @@ pub(super) fn start(wanted: Wanted) -> Result<Result<Start, usize>, Error> {
 /// Rows beside creases are no more than this part of the vertices.
 const MOST_IN_ROWS: f64 = 0.25;
 
-/// Where creases and borders leave too few vertices for the rest, they have so many times fewer in the next round, up to some; what is
+/// Where creases and boundaries leave too few vertices for the rest, they have so many times fewer in the next round, up to some; what is
 /// collapsed first is another edge in each.
 const SPARING: f64 = 1.5;
 const SPARINGS: i32 = 8;
 const ROUNDS: i32 = 24;
 
-/// As [`start`], with points on creases and borders so many spacings apart; how many vertices are needed where these are not enough.
+/// As [`start`], with points on creases and boundaries so many spacings apart; how many vertices are needed where these are not enough.
 fn attempt(wanted: Wanted, spacings: f64) -> Result<Result<Start, usize>, Error> {
     let Wanted { surface, features, sizes, n_points, has_rows, given, seed } = wanted;
     let spacing = spacing(surface, n_points);
     let mut draft = Draft::new(surface, features, sizes);
-    // 1. Points along creases and borders.
+    // 1. Points along creases and boundaries.
     let gaps = match pin_chains(&mut draft, spacings * spacing, n_points, &on_edges(surface, given)) {
         Ok(gaps) => gaps,
         Err(least) => return Ok(Err(least)),

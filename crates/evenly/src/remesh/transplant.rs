@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::live::LiveSurface;
 use super::polish::Bounds;
 use crate::sweep::Ground as _;
-use crate::triangulation::{BORDER, Spoke, next, prev};
+use crate::triangulation::{BOUNDARY, Spoke, next, prev};
 
 /// A vertex inside with so few neighbours is one too many, where the angles around it sum to this in degrees: where they sum to less it makes the shape.
 const FEW_NEIGHBOURS: usize = 4;
@@ -140,7 +140,7 @@ impl LiveSurface<'_> {
     /// The spokes around a vertex from crease to crease, both included.
     pub(super) fn sectors<'r>(&self, v: u32, ring: &'r [Spoke<DVec3>]) -> Vec<Vec<&'r Spoke<DVec3>>> {
         let bonds: Vec<usize> = (0..ring.len()).filter(|&k| self.is_bond(v, ring[k].vertex)).collect();
-        let is_open = ring.iter().any(|spoke| spoke.half_edge == BORDER);
+        let is_open = ring.iter().any(|spoke| spoke.half_edge == BOUNDARY);
         let ends = bonds.iter().skip(1).copied().chain(bonds.first().filter(|_| !is_open).map(|&k| k + ring.len()));
         bonds.iter().zip(ends).map(|(&from, to)| (from..=to).map(|k| &ring[k % ring.len()]).collect()).collect()
     }
@@ -173,7 +173,7 @@ impl LiveSurface<'_> {
             h = turned;
         }
         let across = self.mesh.twin(next(self.mesh.outgoing(v)));
-        let is_tetrahedron = across != BORDER && self.neighbours(v).contains(&self.mesh.turn(across).0);
+        let is_tetrahedron = across != BOUNDARY && self.neighbours(v).contains(&self.mesh.turn(across).0);
         // A tetrahedron has the triangle already.
         n_spokes == 3 && !is_tetrahedron
     }

@@ -8,14 +8,14 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::border::Border;
+use super::boundary::Boundary;
 use super::grid::snap;
 use crate::geometry::spacing::hexagonal_spacing;
 use crate::predicates::is_left_turn;
 
 /// Adding and subtracting this rounds to an integer, for |x| < 2^51.
 const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
-/// A box [0, size.x] x [0, size.y], periodic or not, or what a border encloses in it.
+/// A box [0, size.x] x [0, size.y], periodic or not, or what a boundary encloses in it.
 #[derive(Debug, Clone)]
 pub(crate) struct Domain {
     pub size: DVec2,
@@ -30,7 +30,7 @@ pub(crate) struct Domain {
     /// A power of two: normalised = (input - origin) * scale.
     scale: f64,
     /// What encloses the domain, where that is not the box itself.
-    pub border: Option<Arc<Border>>,
+    pub boundary: Option<Arc<Boundary>>,
 }
 
 impl Domain {
@@ -46,15 +46,15 @@ impl Domain {
             origin,
             end: origin + size,
             scale,
-            border: None,
+            boundary: None,
         };
         let size = domain.size;
         domain.with_size(size)
     }
 
-    /// What a border encloses in it.
-    pub fn within(self, border: Arc<Border>) -> Self {
-        Self { border: Some(border), ..self }
+    /// What a boundary encloses in it.
+    pub fn within(self, boundary: Arc<Boundary>) -> Self {
+        Self { boundary: Some(boundary), ..self }
     }
 
     /// The same domain, `copies` times as wide and high: the finite cover of a torus.
@@ -77,7 +77,7 @@ impl Domain {
     }
 
     pub fn area(&self) -> f64 {
-        self.border.as_ref().map_or(self.size.x * self.size.y, |border| border.area)
+        self.boundary.as_ref().map_or(self.size.x * self.size.y, |boundary| boundary.area)
     }
 
     /// The spacing of the hexagonal lattice with `n_points` points.
@@ -99,16 +99,16 @@ impl Domain {
         (DVec2::from(p) - self.origin) * self.scale
     }
 
-    /// Whether a place in the frame, in input units, lies in the domain or on its border.
+    /// Whether a place in the frame, in input units, lies in the domain or on its boundary.
     pub fn holds(&self, p: [f64; 2]) -> bool {
-        self.border.as_ref().is_none_or(|border| border.holds(self.land((DVec2::from(p) - self.origin) * self.scale)))
+        self.boundary.as_ref().is_none_or(|boundary| boundary.holds(self.land((DVec2::from(p) - self.origin) * self.scale)))
     }
 
-    /// The place in the domain, clear of a border, that is next to one in it.
+    /// The place in the domain, clear of a boundary, that is next to one in it.
     #[inline]
     pub fn inside(&self, q: DVec2) -> DVec2 {
         let q = self.land(q);
-        self.border.as_ref().map_or(q, |border| border.inside(q))
+        self.boundary.as_ref().map_or(q, |boundary| boundary.inside(q))
     }
 
     /// To input units.
@@ -173,17 +173,17 @@ impl Domain {
         }
     }
 
-    /// Where a point at `from` comes to that is to go to `to`: a border stops it, or leads it along.
+    /// Where a point at `from` comes to that is to go to `to`: a boundary stops it, or leads it along.
     #[inline]
     pub fn walk(&self, from: DVec2, to: DVec2) -> DVec2 {
         let to = self.land(to);
-        self.border.as_ref().map_or(to, |border| border.land(from, to))
+        self.boundary.as_ref().map_or(to, |boundary| boundary.land(from, to))
     }
 
-    /// Whether no border stands between two places.
+    /// Whether no boundary stands between two places.
     #[inline]
     pub fn sees(&self, a: DVec2, b: DVec2) -> bool {
-        self.border.as_ref().is_none_or(|border| border.sees(a, b))
+        self.boundary.as_ref().is_none_or(|boundary| boundary.sees(a, b))
     }
 
     /// The radius of the largest disk around a place that the box holds: on a torus, without covering a place twice.
@@ -194,7 +194,7 @@ impl Domain {
 
     /// Whether a place lies in the domain.
     pub fn contains(&self, q: DVec2) -> bool {
-        q.cmpge(DVec2::ZERO).all() && q.cmple(self.size).all() && self.border.as_ref().is_none_or(|border| border.contains(q))
+        q.cmpge(DVec2::ZERO).all() && q.cmple(self.size).all() && self.boundary.as_ref().is_none_or(|boundary| boundary.contains(q))
     }
 }
 

@@ -1,12 +1,12 @@
 //! Where points live: the periodic [`Torus`], the bounded [`Rectangle`], the [`Region`] in a polygon. Inside, all are one normalised [`Domain`](domain::Domain).
 
-mod border;
+mod boundary;
 mod domain;
 mod grid;
 mod region;
 mod segment_tree;
 
-pub(crate) use border::Border;
+pub(crate) use boundary::Boundary;
 pub(crate) use domain::Domain;
 pub(crate) use grid::{GRID, snap};
 pub use region::Region;
@@ -28,7 +28,7 @@ pub struct Torus {
     size: [f64; 2],
 }
 
-/// A bounded rectangle; its border belongs to it.
+/// A bounded rectangle; its boundary belongs to it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Rectangle {
     origin: [f64; 2],
@@ -216,7 +216,7 @@ impl Space {
         width * height * (2.0 * n_points as f64 / 3f64.sqrt()).sqrt() * self.fullness().sqrt()
     }
 
-    /// The length of its border, in input units; on a torus that of the lines along which it is cut open.
+    /// The length of its boundary, in input units; on a torus that of the lines along which it is cut open.
     pub(crate) fn perimeter(&self) -> f64 {
         let length = |ring: &Vec<[f64; 2]>| -> f64 {
             let ends = ring.iter().zip(ring.iter().cycle().skip(1));

@@ -6,10 +6,10 @@ use glam::DVec2;
 use serde::Serialize;
 use serde::ser::SerializeStruct as _;
 
-use super::border::Border;
+use super::boundary::Boundary;
 use super::{Domain, Rectangle, snap, ulp};
 
-/// What the rings of a [`Polygon`](crate::Polygon) enclose, its border included; `Space::from(&polygon)` makes one. Cheap to clone.
+/// What the rings of a [`Polygon`](crate::Polygon) enclose, its boundary included; `Space::from(&polygon)` makes one. Cheap to clone.
 #[derive(Debug, Clone)]
 pub struct Region(Arc<Inner>);
 
@@ -21,7 +21,7 @@ struct Inner {
     /// In normalised coordinates: triangles that fill it, part by part, and what is around them.
     triangles: Vec<[DVec2; 3]>,
     n_triangles: Vec<usize>,
-    border: Arc<Border>,
+    boundary: Arc<Boundary>,
 }
 
 impl Region {
@@ -39,10 +39,10 @@ impl Region {
         let (segments, part_of) = segments.into_iter().unzip();
         let filled = |triangles: &Vec<[DVec2; 3]>| triangles.iter().map(|[a, b, c]| 0.5 * (b - a).perp_dot(c - a)).sum::<f64>();
         let areas = parts.iter().map(filled).collect();
-        let border = Border::new(segments, part_of, areas, domain.size, 2.0 * rounding.fold(0.0, f64::max) / unit);
+        let boundary = Boundary::new(segments, part_of, areas, domain.size, 2.0 * rounding.fold(0.0, f64::max) / unit);
         let n_triangles = parts.iter().map(Vec::len).collect();
         let triangles = parts.into_iter().flatten().collect();
-        Self(Arc::new(Inner { frame, rings, area, triangles, n_triangles, border: Arc::new(border) }))
+        Self(Arc::new(Inner { frame, rings, area, triangles, n_triangles, boundary: Arc::new(boundary) }))
     }
 
     /// The rings, in input units, without a closing point: the inside is on their left.
@@ -73,20 +73,20 @@ impl Region {
 
     /// The same with the frame scaled to the unit square, each axis by itself.
     pub(super) fn in_unit_square(&self) -> Self {
-        let Inner { frame, rings, area, border, .. } = &*self.0;
+        let Inner { frame, rings, area, boundary, .. } = &*self.0;
         let Rectangle { origin, size } = *frame;
         let square = Rectangle { origin: [0.0; 2], size: [1.0; 2] };
         let scale = 1.0 / Domain::new(origin, size, false).size;
         let rings = rings.iter().map(|ring| ring.iter().map(|&p| frame.to_unit(p)).collect()).collect();
         let parts = self.parts().map(|triangles| triangles.iter().map(|corners| corners.map(|p| snap(p * scale))).collect());
-        let segments = border.segments().iter().enumerate();
-        let segments = segments.map(|(number, ends)| (ends.map(|p| snap(p * scale)), border.part_at(number) as u32));
+        let segments = boundary.segments().iter().enumerate();
+        let segments = segments.map(|(number, ends)| (ends.map(|p| snap(p * scale)), boundary.part_at(number) as u32));
         Self::new(square, rings, area / (size[0] * size[1]), parts.collect(), segments.collect())
     }
 
     pub(super) fn domain(&self) -> Domain {
         let Rectangle { origin, size } = self.0.frame;
-        Domain::new(origin, size, false).within(Arc::clone(&self.0.border))
+        Domain::new(origin, size, false).within(Arc::clone(&self.0.boundary))
     }
 }
 

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::Surface;
 use super::bvh::{Bounds, Bvh};
 use crate::predicates::orientation;
-use crate::triangulation::BORDER;
+use crate::triangulation::BOUNDARY;
 
 /// Corners so near to a plane, in longest sides, lie in it.
 const FLAT: f64 = 1e-11;
@@ -47,7 +47,7 @@ fn flat_patches(surface: &Surface) -> Vec<u32> {
         t
     };
     for (h, &twin) in surface.half_edges.twin.iter().enumerate() {
-        let is_first = twin != BORDER && h < twin as usize;
+        let is_first = twin != BOUNDARY && h < twin as usize;
         if is_first && is_flat([h / 3, twin as usize / 3].map(|t| surface.corners(t))) {
             let [a, b] = [h as u32 / 3, twin / 3].map(|t| root(&mut patches, t));
             patches[a.max(b) as usize] = a.min(b);

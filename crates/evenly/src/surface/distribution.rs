@@ -2,7 +2,7 @@
 //!
 //! Wei and Wang, "Differential Domain Analysis for Non-uniform Sampling", ACM Transactions on Graphics 30(4), 2011, doi 10.1145/2010324.1964945, section 6. A surface
 //! has no Fourier spectrum, but distances: how many points there are at each, relative to what white noise has there. That is counted, at many places spread evenly over the same
-//! surface, so that neither its curvature nor its border nor its shape counts for the points' order. The radial power is the transform of that, as in the plane.
+//! surface, so that neither its curvature nor its boundary nor its shape counts for the points' order. The radial power is the transform of that, as in the plane.
 
 use rayon::prelude::*;
 use serde::Serialize;

@@ -18,7 +18,7 @@ const MAX_STEPS: usize = 50;
 /// The local feature size at each vertex, in the units inside.
 pub(super) fn feature_sizes(surface: &Surface) -> Vec<f64> {
     let points = &surface.points;
-    let normals = Features::borders(surface).vertex_normals(surface);
+    let normals = Features::boundaries(surface).vertex_normals(surface);
     let bounds: Vec<Bounds> = points.iter().map(|&p| Bounds::of(&[p])).collect();
     let tree = Bvh::new(&bounds);
     let all = Bounds::of(points);

@@ -1,12 +1,12 @@
-//! Features: the creases, tips and borders of a surface. Creases and borders are chains between corners.
+//! Features: the creases, tips and boundaries of a surface. Creases and boundaries are chains between corners.
 //!
 //! Where a mesh is coarse or noisy, single edges turn as much as creases do. A crease is told from them by what stands around: its edges turn many times as much as the others
-//! that end on it, and those that hang together go around something, or end at borders.
+//! that end on it, and those that hang together go around something, or end at boundaries.
 
 use glam::DVec3;
 
 use super::Surface;
-use crate::triangulation::{BORDER, next, prev};
+use crate::triangulation::{BOUNDARY, next, prev};
 
 /// Where a chain turns by more than this, a corner is.
 const CORNER_TURN_DEG: f64 = 45.0;
@@ -22,7 +22,7 @@ const TIPS_APART: f64 = 3.0;
 
 /// What of a surface a mesh on it keeps.
 pub(crate) struct Features {
-    /// For each half-edge whether it lies on a crease or a border.
+    /// For each half-edge whether it lies on a crease or a boundary.
     pub is_crease: Vec<bool>,
     pub chains: Vec<Chain>,
     /// Vertices inside that stand out like the tip of a cone.
@@ -38,16 +38,16 @@ pub(crate) struct Chain {
     pub is_closed: bool,
     /// Whether one of its ends leads nowhere.
     pub is_loose: bool,
-    pub is_border: bool,
+    pub is_boundary: bool,
 }
 
 impl Features {
-    /// Borders, and where the surface turns by more than an angle, if one is given: what of that stands out in a mesh with such a spacing.
+    /// Boundaries, and where the surface turns by more than an angle, if one is given: what of that stands out in a mesh with such a spacing.
     pub fn new(surface: &Surface, angle_deg: Option<f64>, spacing: f64) -> Self {
         let least = angle_deg.unwrap_or(f64::INFINITY);
         let turns: Vec<Option<f64>> = (0..surface.half_edges.origin.len()).map(|h| surface.turn_deg(h)).collect();
         let is_crease =
-            (0..turns.len()).map(|h| surface.half_edges.twin[h] == BORDER || turns[h].is_some_and(|turn| turn > least)).collect();
+            (0..turns.len()).map(|h| surface.half_edges.twin[h] == BOUNDARY || turns[h].is_some_and(|turn| turn > least)).collect();
         let mut features = Self { is_crease, chains: Vec::new(), tips: Vec::new(), corner_normals: Vec::new() };
         features.chains = chains(surface, &features.is_crease);
         if angle_deg.is_some() {
@@ -65,7 +65,7 @@ impl Features {
                 is_held[group] |= chain.vertices.iter().any(|&v| is_kept[v as usize]);
             }
             let mut group = groups.iter();
-            features.retain(surface, |chain| chain.is_border | group.next().is_some_and(|&group| is_held[group]));
+            features.retain(surface, |chain| chain.is_boundary | group.next().is_some_and(|&group| is_held[group]));
             features.keep_contrast(surface, &turns, spacing);
         }
         features.corner_normals = corner_normals(surface, &features.is_crease);
@@ -83,8 +83,8 @@ impl Features {
         features
     }
 
-    /// Borders alone.
-    pub fn borders(surface: &Surface) -> Self {
+    /// Boundaries alone.
+    pub fn boundaries(surface: &Surface) -> Self {
         Self::new(surface, None, 0.0)
     }
 
@@ -101,7 +101,7 @@ impl Features {
     fn prune(&mut self, surface: &Surface, is_kept: impl Fn(&Chain) -> bool) {
         loop {
             let n = self.chains.len();
-            self.retain(surface, |chain| !chain.is_loose || chain.is_border || is_kept(chain));
+            self.retain(surface, |chain| !chain.is_loose || chain.is_boundary || is_kept(chain));
             if self.chains.len() == n {
                 return;
             }
@@ -114,7 +114,7 @@ impl Features {
         let n_groups = groups.iter().max().map_or(0, |&group| group + 1);
         let mut group_of = vec![usize::MAX; surface.n_vertices()];
         let (mut lengths, mut n_chains) = (vec![0.0; n_groups], vec![0.0; n_groups]);
-        for (chain, &group) in self.chains.iter().zip(&groups).filter(|(chain, _)| !chain.is_border) {
+        for (chain, &group) in self.chains.iter().zip(&groups).filter(|(chain, _)| !chain.is_boundary) {
             lengths[group] += chain.length(surface);
             n_chains[group] += 1.0;
             chain.vertices.iter().for_each(|&v| group_of[v as usize] = group);
@@ -132,13 +132,13 @@ impl Features {
         let is_long = |(length, n): (&f64, &f64)| *length > LEAST_LENGTH.max(MEAN_LENGTH * n) * spacing;
         let is_kept: Vec<bool> = lengths.iter().zip(&n_chains).map(|group| is_long(group) & (stands_out.next() == Some(true))).collect();
         let mut group = groups.iter();
-        self.retain(surface, |chain| chain.is_border | group.next().is_some_and(|&group| is_kept[group]));
+        self.retain(surface, |chain| chain.is_boundary | group.next().is_some_and(|&group| is_kept[group]));
     }
 
-    /// For each vertex whether it lies on a crease that is no border.
+    /// For each vertex whether it lies on a crease that is no boundary.
     fn is_at_crease(&self, surface: &Surface) -> Vec<bool> {
         let mut is = vec![false; surface.n_vertices()];
-        for chain in self.chains.iter().filter(|chain| !chain.is_border) {
+        for chain in self.chains.iter().filter(|chain| !chain.is_boundary) {
             chain.vertices.iter().for_each(|&v| is[v as usize] = true);
         }
         is
@@ -151,7 +151,7 @@ impl Features {
             let missing: &mut f64 = &mut missing[surface.half_edges.origin[h as usize] as usize];
             *missing -= if self.is_crease[h as usize] || self.is_crease[prev(h) as usize] { 360.0 } else { surface.angle(h).to_degrees() };
         }
-        let is_used = surface.half_edges.outgoing(surface.n_vertices()).into_iter().map(|h| h != BORDER);
+        let is_used = surface.half_edges.outgoing(surface.n_vertices()).into_iter().map(|h| h != BOUNDARY);
         let mut tips: Vec<u32> =
             (0..).zip(is_used).filter(|&(v, is_used)| is_used && missing[v as usize] > least).map(|(v, _)| v).collect();
         tips.sort_by(|&a, &b| missing[b as usize].total_cmp(&missing[a as usize]).then(a.cmp(&b)));
@@ -179,7 +179,7 @@ impl Features {
                         let twin = mesh.twin[h as usize];
                         let is_step =
                             [mesh.origin[h as usize], mesh.target(h)] == [a, b] || [mesh.target(h), mesh.origin[h as usize]] == [a, b];
-                        if is_step && twin != BORDER {
+                        if is_step && twin != BOUNDARY {
                             (self.is_crease[h as usize], self.is_crease[twin as usize]) = (false, false);
                             has_changed = true;
                         }
@@ -207,16 +207,16 @@ impl Chain {
 }
 
 impl Surface {
-    /// The angle in degrees by which the surface turns at an edge; `None` on a border, and where a triangle has no area.
+    /// The angle in degrees by which the surface turns at an edge; `None` on a boundary, and where a triangle has no area.
     fn turn_deg(&self, h: usize) -> Option<f64> {
         let twin = self.half_edges.twin[h];
-        let normals = (twin != BORDER).then(|| [self.normals[h / 3], self.normals[twin as usize / 3]])?;
+        let normals = (twin != BOUNDARY).then(|| [self.normals[h / 3], self.normals[twin as usize / 3]])?;
         let [a, b] = normals;
         (a != DVec3::ZERO && b != DVec3::ZERO).then(|| libm::atan2(a.cross(b).length(), a.dot(b)).to_degrees())
     }
 }
 
-/// Of each chain the number of the group of those that hang together; borders stand alone.
+/// Of each chain the number of the group of those that hang together; boundaries stand alone.
 fn groups(chains: &[Chain], n_vertices: usize) -> Vec<usize> {
     let mut root: Vec<usize> = (0..chains.len()).collect();
     fn find(root: &mut [usize], mut k: usize) -> usize {
@@ -227,7 +227,7 @@ fn groups(chains: &[Chain], n_vertices: usize) -> Vec<usize> {
         k
     }
     let mut first_at = vec![usize::MAX; n_vertices];
-    for (k, chain) in chains.iter().enumerate().filter(|(_, chain)| !chain.is_border) {
+    for (k, chain) in chains.iter().enumerate().filter(|(_, chain)| !chain.is_boundary) {
         for end in [chain.vertices[0], chain.vertices[chain.vertices.len() - 1]] {
             let first = &mut first_at[end as usize];
             if *first == usize::MAX {
@@ -254,7 +254,7 @@ fn median(numbers: &mut [f64]) -> f64 {
 fn creases_at(surface: &Surface, is_crease: &[bool]) -> Vec<Vec<u32>> {
     let mesh = &surface.half_edges;
     let mut ends = vec![Vec::new(); surface.n_vertices()];
-    for h in (0..is_crease.len() as u32).filter(|&h| is_crease[h as usize] && (mesh.is_border(h) || h < mesh.twin[h as usize])) {
+    for h in (0..is_crease.len() as u32).filter(|&h| is_crease[h as usize] && (mesh.is_boundary(h) || h < mesh.twin[h as usize])) {
         let [a, b] = [mesh.origin[h as usize], mesh.target(h)];
         ends[a as usize].push(b);
         ends[b as usize].push(a);
@@ -292,11 +292,11 @@ fn chains(surface: &Surface, is_crease: &[bool]) -> Vec<Chain> {
         }
     };
     let outgoing = surface.half_edges.outgoing(surface.n_vertices());
-    let is_border = |a: u32, b: u32| {
+    let is_boundary = |a: u32, b: u32| {
         let mut around = surface.half_edges.around(outgoing[a as usize]).flat_map(|h| [h, prev(h)]);
         around.any(|h| {
             let ends = [surface.half_edges.origin[h as usize], surface.half_edges.target(h)];
-            (ends == [a, b] || ends == [b, a]) && surface.half_edges.is_border(h)
+            (ends == [a, b] || ends == [b, a]) && surface.half_edges.is_boundary(h)
         })
     };
     let mut chains = Vec::new();
@@ -304,7 +304,7 @@ fn chains(surface: &Surface, is_crease: &[bool]) -> Vec<Chain> {
         for k in 0..ends[v].len() {
             if let Some(vertices) = walk(v, k) {
                 let is_loose = [vertices[0], vertices[vertices.len() - 1]].iter().any(|&end| ends[end as usize].len() == 1);
-                chains.push(Chain { is_border: is_border(vertices[0], vertices[1]), vertices, is_closed: false, is_loose });
+                chains.push(Chain { is_boundary: is_boundary(vertices[0], vertices[1]), vertices, is_closed: false, is_loose });
             }
         }
     }
@@ -312,7 +312,7 @@ fn chains(surface: &Surface, is_crease: &[bool]) -> Vec<Chain> {
     for v in (0..ends.len()).filter(|&v| ends[v].len() == 2 && !is_corner(v)) {
         if let Some(mut vertices) = walk(v, 0) {
             vertices.pop();
-            chains.push(Chain { is_border: is_border(vertices[0], vertices[1]), vertices, is_closed: true, is_loose: false });
+            chains.push(Chain { is_boundary: is_boundary(vertices[0], vertices[1]), vertices, is_closed: true, is_loose: false });
         }
     }
     chains

@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-use crate::triangulation::{BORDER, HalfEdges, Patch, next, prev};
+use crate::triangulation::{BOUNDARY, HalfEdges, Patch, next, prev};
 
 /// A triangle lower than this part of its longest side has no area.
 const FLAT: f64 = 1e-12;
 /// Each round flips what it can; chains of flat triangles take several.
 const ROUNDS: usize = 8;
 
-/// Flips the longest sides of flat triangles, which lie on the corner across from it, and takes away those whose longest side is on a border. Returns how many.
+/// Flips the longest sides of flat triangles, which lie on the corner across from it, and takes away those whose longest side is on a boundary. Returns how many.
 pub(super) fn mend_flat(half_edges: &mut HalfEdges, faces: &mut Vec<usize>, points: &[DVec3]) -> usize {
     let height = |corners: [u32; 3]| {
         let [a, b, c] = corners.map(|v| points[v as usize]);
@@ -35,7 +35,7 @@ pub(super) fn mend_flat(half_edges: &mut HalfEdges, faces: &mut Vec<usize>, poin
         for t in flat {
             let Some(h) = longest_side(half_edges, t).filter(|_| is_flat(half_edges.triangle(t))) else { continue };
             let twin = half_edges.twin[h as usize];
-            if twin == BORDER {
+            if twin == BOUNDARY {
                 is_dropped[t] = true;
                 n_changed += 1;
                 continue;
@@ -66,7 +66,7 @@ pub(super) fn mend_flat(half_edges: &mut HalfEdges, faces: &mut Vec<usize>, poin
 
 /// The other triangles, in order.
 fn without(half_edges: &HalfEdges, is_dropped: &[bool]) -> HalfEdges {
-    let mut number = vec![BORDER; is_dropped.len()];
+    let mut number = vec![BOUNDARY; is_dropped.len()];
     let kept: Vec<usize> = (0..is_dropped.len()).filter(|&t| !is_dropped[t]).collect();
     for (new, &t) in (0..).zip(&kept) {
         number[t] = new;
@@ -74,8 +74,8 @@ fn without(half_edges: &HalfEdges, is_dropped: &[bool]) -> HalfEdges {
     let all = || kept.iter().flat_map(|&t| 3 * t..3 * t + 3);
     let twin = |h: usize| {
         let twin = half_edges.twin[h];
-        let across = if twin == BORDER { BORDER } else { number[twin as usize / 3] };
-        if across == BORDER { BORDER } else { 3 * across + twin % 3 }
+        let across = if twin == BOUNDARY { BOUNDARY } else { number[twin as usize / 3] };
+        if across == BOUNDARY { BOUNDARY } else { 3 * across + twin % 3 }
     };
     HalfEdges { origin: all().map(|h| half_edges.origin[h]).collect(), twin: all().map(twin).collect() }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::clean::Clean;
 use crate::error::Error;
-use crate::triangulation::{BORDER, HalfEdges, next, prev};
+use crate::triangulation::{BOUNDARY, HalfEdges, next, prev};
 
 /// So many faults are named in a message.
 const NAMED: usize = 5;
@@ -61,7 +61,7 @@ pub(super) fn manifold(clean: &Clean, points: &[DVec3], is_repaired: bool) -> Re
     let edges = self::edges(&triangles);
 
     // Twins, where there are two.
-    let mut half_edges = HalfEdges { origin: triangles.iter().flatten().copied().collect(), twin: vec![BORDER; 3 * triangles.len()] };
+    let mut half_edges = HalfEdges { origin: triangles.iter().flatten().copied().collect(), twin: vec![BOUNDARY; 3 * triangles.len()] };
     let (mut crowded, mut n_cut) = (Vec::new(), 0);
     for edge in &edges {
         match edge[..] {

@@ -42,9 +42,9 @@ use self::flatten::mend_flat;
 use self::manifold::{manifold, split_fans};
 use self::stitch::stitch;
 use crate::error::Error;
-use crate::triangulation::{BORDER, HalfEdges, prev};
+use crate::triangulation::{BOUNDARY, HalfEdges, prev};
 
-/// An oriented manifold of triangles, closed or with borders, of any genus and in any number of parts.
+/// An oriented manifold of triangles, closed or with boundaries, of any genus and in any number of parts.
 ///
 /// Inside it lies around the origin, scaled by a power of two, so that neither an offset nor the units cost digits.
 #[derive(Debug, Clone)]
@@ -152,7 +152,7 @@ impl Surface {
         notes.extend(made_notes);
         let n_flat = mend_flat(&mut half_edges, &mut clean.faces, &points);
         if n_flat > 0 {
-            notes.push(format!("{n_flat} triangles without area were mended by flips, or dropped at a border"));
+            notes.push(format!("{n_flat} triangles without area were mended by flips, or dropped at a boundary"));
         }
         let vertices = split_fans(&mut half_edges, points.len());
         if vertices.len() > points.len() {
@@ -194,19 +194,19 @@ impl Surface {
     }
 
     /// How many edges have a triangle on one side only.
-    pub fn n_border_edges(&self) -> usize {
-        self.half_edges.twin.iter().filter(|&&twin| twin == BORDER).count()
+    pub fn n_boundary_edges(&self) -> usize {
+        self.half_edges.twin.iter().filter(|&&twin| twin == BOUNDARY).count()
     }
 
-    /// Whether there is no border.
+    /// Whether there is no boundary.
     pub fn is_closed(&self) -> bool {
-        self.n_border_edges() == 0
+        self.n_boundary_edges() == 0
     }
 
     /// Vertices less edges plus triangles: 2 for a sphere, 2 less for each handle, 1 less for each hole.
     pub fn euler_characteristic(&self) -> i64 {
-        let n_edges = (self.half_edges.origin.len() + self.n_border_edges()) / 2;
-        let n_used = self.half_edges.outgoing(self.n_vertices()).iter().filter(|&&h| h != BORDER).count();
+        let n_edges = (self.half_edges.origin.len() + self.n_boundary_edges()) / 2;
+        let n_used = self.half_edges.outgoing(self.n_vertices()).iter().filter(|&&h| h != BOUNDARY).count();
         n_used as i64 - n_edges as i64 + self.n_triangles() as i64
     }
 
@@ -224,7 +224,7 @@ impl Surface {
             while let Some(t) = stack.pop() {
                 for h in 3 * t..3 * t + 3 {
                     let twin = self.half_edges.twin[h];
-                    if twin != BORDER && !std::mem::replace(&mut seen[twin as usize / 3], true) {
+                    if twin != BOUNDARY && !std::mem::replace(&mut seen[twin as usize / 3], true) {
                         stack.push(twin as usize / 3);
                     }
                 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::walk::{Place, nearest_in_triangle};
 use super::{Surface, morton};
-use crate::triangulation::BORDER;
+use crate::triangulation::BOUNDARY;
 
 /// A place, and the normal of its triangle.
 #[derive(Debug, Clone, Copy)]
@@ -119,7 +119,7 @@ impl<'a> Neighbours<'a> {
             }
             for h in 3 * face..3 * face + 3 {
                 let twin = self.surface.half_edges.twin[h as usize];
-                if twin == BORDER || seen.rounds[twin as usize / 3] == seen.round {
+                if twin == BOUNDARY || seen.rounds[twin as usize / 3] == seen.round {
                     continue;
                 }
                 seen.rounds[twin as usize / 3] = seen.round;

@@ -16,7 +16,7 @@ use glam::DVec3;
 use super::Surface;
 use super::walk::{Place, nearest_in_triangle};
 use crate::points::Random;
-use crate::triangulation::BORDER;
+use crate::triangulation::BOUNDARY;
 
 /// A piece smaller than this, in spacings, is settled by its middle.
 const SMALLEST: f64 = 1e-3;
@@ -141,7 +141,7 @@ impl Disks<'_> {
             self.near[face as usize].push(number);
             for h in 3 * face..3 * face + 3 {
                 let twin = self.surface.half_edges.twin[h as usize];
-                if twin == BORDER || self.seen[twin as usize / 3] == number {
+                if twin == BOUNDARY || self.seen[twin as usize / 3] == number {
                     continue;
                 }
                 self.seen[twin as usize / 3] = number;

@@ -6,7 +6,7 @@ use super::Surface;
 use crate::geometry::spacing::triangle_side;
 use crate::geometry::triangle::Shape;
 use crate::measure::SizeErrors;
-use crate::triangulation::{BORDER, prev};
+use crate::triangulation::{BOUNDARY, prev};
 
 /// Measures of a mesh's triangles, by chords; lengths in input units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -18,7 +18,7 @@ pub struct SurfaceQuality {
     /// How many connected parts.
     pub n_components: usize,
     /// How many edges with one triangle.
-    pub n_border_edges: usize,
+    pub n_boundary_edges: usize,
     /// Vertices less edges plus triangles.
     pub euler_characteristic: i64,
     /// The sum of the triangles' areas.
@@ -91,7 +91,7 @@ pub fn surface_quality(surface: &Surface) -> SurfaceQuality {
         n_vertices: surface.n_vertices(),
         n_triangles,
         n_components: surface.n_components(),
-        n_border_edges: surface.n_border_edges(),
+        n_boundary_edges: surface.n_boundary_edges(),
         euler_characteristic: surface.euler_characteristic(),
         area: surface.area(),
         min_quality: f64::INFINITY,
@@ -190,7 +190,7 @@ fn valences(surface: &Surface) -> [f64; 2] {
     let mut is_inside = vec![true; surface.n_vertices()];
     for h in 0..mesh.origin.len() as u32 {
         valence[mesh.origin[h as usize] as usize] += 1;
-        if mesh.twin[h as usize] == BORDER || mesh.twin[prev(h) as usize] == BORDER {
+        if mesh.twin[h as usize] == BOUNDARY || mesh.twin[prev(h) as usize] == BOUNDARY {
             is_inside[mesh.origin[h as usize] as usize] = false;
         }
     }

@@ -146,7 +146,7 @@ fn limited(sizes: Vec<f64>, most: f64) -> Vec<f64> {
 
 /// The largest curvature at each vertex, by how the normals turn along the edges that end there; averaged with its neighbours.
 fn curvatures(surface: &Surface) -> Vec<f64> {
-    let normals = Features::borders(surface).vertex_normals(surface);
+    let normals = Features::boundaries(surface).vertex_normals(surface);
     let mesh = &surface.half_edges;
     let mut curvature = vec![0f64; surface.n_vertices()];
     for h in 0..mesh.origin.len() as u32 {

@@ -14,8 +14,8 @@ pub(super) fn stitch(clean: &mut Clean, points: &[DVec3]) -> usize {
     let mut n_stitched = 0;
     loop {
         let open = open_edges(&clean.triangles);
-        let on_border: HashSet<u32> = open.iter().flat_map(|&(t, k)| [corner(clean, t, k), corner(clean, t, k + 1)]).collect();
-        let mut by_x: Vec<u32> = on_border.into_iter().collect();
+        let on_boundary: HashSet<u32> = open.iter().flat_map(|&(t, k)| [corner(clean, t, k), corner(clean, t, k + 1)]).collect();
+        let mut by_x: Vec<u32> = on_boundary.into_iter().collect();
         by_x.sort_by(|&a, &b| points[a as usize].x.total_cmp(&points[b as usize].x).then(a.cmp(&b)));
         // One edge of a triangle at a time: the others are met in the next round.
         let mut is_divided = vec![false; clean.triangles.len()];

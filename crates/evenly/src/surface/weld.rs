@@ -1,4 +1,4 @@
-//! Corners that lie near to each other become one, and borders that nearly touch are found.
+//! Corners that lie near to each other become one, and boundaries that nearly touch are found.
 
 use std::collections::HashMap;
 
@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use super::Surface;
 use super::triangle_mesh::TriangleMesh;
-use crate::triangulation::BORDER;
+use crate::triangulation::BOUNDARY;
 
-/// Borders nearer to each other than this, in mean lengths of their edges, were meant to be one.
+/// Boundaries nearer to each other than this, in mean lengths of their edges, were meant to be one.
 const NEAR: f64 = 1e-3;
 
 /// Places by cells of a grid, so that near ones are found.
@@ -65,30 +65,30 @@ impl TriangleMesh {
 }
 
 impl Surface {
-    /// How many vertices of borders lie so near to another one, which is no neighbour, that both were meant to be one, and how far at most, in input
+    /// How many vertices of boundaries lie so near to another one, which is no neighbour, that both were meant to be one, and how far at most, in input
     /// units; `None` where there are none. [`TriangleMesh::welded`] joins them.
-    pub fn near_borders(&self) -> Option<(usize, f64)> {
-        near_borders(self).map(|(n, distance)| (n, self.frame.length_outward(distance)))
+    pub fn near_boundaries(&self) -> Option<(usize, f64)> {
+        near_boundaries(self).map(|(n, distance)| (n, self.frame.length_outward(distance)))
     }
 }
 
 /// The same in the surface's own units.
-fn near_borders(surface: &Surface) -> Option<(usize, f64)> {
+fn near_boundaries(surface: &Surface) -> Option<(usize, f64)> {
     let mesh = &surface.half_edges;
-    let border: Vec<u32> = (0..mesh.origin.len() as u32).filter(|&h| mesh.twin[h as usize] == BORDER).collect();
+    let boundary: Vec<u32> = (0..mesh.origin.len() as u32).filter(|&h| mesh.twin[h as usize] == BOUNDARY).collect();
     let ends = |&h: &u32| [mesh.origin[h as usize], mesh.target(h)].map(|v| v as usize);
-    let lengths = border.iter().map(|h| {
+    let lengths = boundary.iter().map(|h| {
         let [a, b] = ends(h);
         surface.points[a].distance(surface.points[b])
     });
-    let near = NEAR * lengths.sum::<f64>() / border.len() as f64;
-    if border.is_empty() || near <= 0.0 {
+    let near = NEAR * lengths.sum::<f64>() / boundary.len() as f64;
+    if boundary.is_empty() || near <= 0.0 {
         return None;
     }
     let mut grid = Grid::new(near);
-    border.iter().for_each(|&h| grid.add(mesh.origin[h as usize] as usize, surface.points[mesh.origin[h as usize] as usize]));
+    boundary.iter().for_each(|&h| grid.add(mesh.origin[h as usize] as usize, surface.points[mesh.origin[h as usize] as usize]));
     let (mut n, mut largest) = (0, 0.0f64);
-    for h in &border {
+    for h in &boundary {
         let [v, after] = ends(h);
         let p = surface.points[v];
         let others = grid.near(p).filter(|&other| other != v && other != after).map(|other| surface.points[other].distance(p));

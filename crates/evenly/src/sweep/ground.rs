@@ -176,7 +176,7 @@ impl Ground for LiveMesh {
     }
 
     fn sees_beyond(&self) -> bool {
-        self.domain().border.is_some()
+        self.domain().boundary.is_some()
     }
 
     fn point(&self, v: u32) -> u32 {

@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-use super::half_edges::BORDER;
+use super::half_edges::BOUNDARY;
 use super::mesh::Triangulation;
 use crate::predicates::is_left_turn;
 
 impl Triangulation {
     /// Proves that the torus, or the points' convex hull, is triangulated: twins, orientation, Euler's formula, and on a torus that the
-    /// areas sum to the domain's, elsewhere that the border is one convex ring.
+    /// areas sum to the domain's, elsewhere that the boundary is one convex ring.
     pub fn check(&self) -> Result<(), String> {
         self.check_twins()?;
         self.check_orientation()?;
@@ -16,7 +16,7 @@ impl Triangulation {
         self.check_hull()
     }
 
-    /// Proves that what a border encloses is triangulated, as long as the border does not cross itself: twins and orientation.
+    /// Proves that what a boundary encloses is triangulated, as long as the boundary does not cross itself: twins and orientation.
     pub fn check_bounded(&self) -> Result<(), String> {
         self.check_twins()?;
         self.check_orientation()
@@ -35,7 +35,7 @@ impl Triangulation {
         let mesh = &self.half_edges;
         for h in 0..mesh.origin.len() as u32 {
             let t = mesh.twin[h as usize];
-            if t == BORDER && !self.domain.is_periodic {
+            if t == BOUNDARY && !self.domain.is_periodic {
                 continue;
             }
             let is_pair = mesh.twin.get(t as usize) == Some(&h)
@@ -64,28 +64,28 @@ impl Triangulation {
         Ok(())
     }
 
-    /// An upright disc whose border turns to the left all the way, or runs straight on, is its own convex hull.
+    /// An upright disc whose boundary turns to the left all the way, or runs straight on, is its own convex hull.
     fn check_hull(&self) -> Result<(), String> {
         let mesh = &self.half_edges;
-        let border: Vec<u32> = (0..mesh.origin.len() as u32).filter(|&h| mesh.is_border(h)).collect();
-        let leaving: HashMap<u32, u32> = border.iter().map(|&h| (mesh.origin[h as usize], h)).collect();
-        let Some(&start) = border.first().filter(|_| !self.domain.is_periodic) else { return Ok(()) };
+        let boundary: Vec<u32> = (0..mesh.origin.len() as u32).filter(|&h| mesh.is_boundary(h)).collect();
+        let leaving: HashMap<u32, u32> = boundary.iter().map(|&h| (mesh.origin[h as usize], h)).collect();
+        let Some(&start) = boundary.first().filter(|_| !self.domain.is_periodic) else { return Ok(()) };
         let (mut h, mut n_seen) = (start, 0);
         loop {
             n_seen += 1;
-            let Some(&after) = leaving.get(&mesh.target(h)) else { return Err(format!("the border ends after half-edge {h}")) };
+            let Some(&after) = leaving.get(&mesh.target(h)) else { return Err(format!("the boundary ends after half-edge {h}")) };
             let [a, b, c] = [mesh.origin[h as usize], mesh.target(h), mesh.target(after)].map(|v| self.positions[v as usize]);
             let is_right_turn = is_left_turn(c - b, b - a);
             if is_right_turn || (b - a).dot(c - b) < 0.0 && !is_left_turn(b - a, c - b) {
-                return Err(format!("the border is not convex after half-edge {h}"));
+                return Err(format!("the boundary is not convex after half-edge {h}"));
             }
             h = after;
-            if h == start || n_seen > border.len() {
+            if h == start || n_seen > boundary.len() {
                 break;
             }
         }
-        if n_seen != border.len() {
-            return Err("the border is more than one ring".into());
+        if n_seen != boundary.len() {
+            return Err("the boundary is more than one ring".into());
         }
         Ok(())
     }
@@ -93,8 +93,8 @@ impl Triangulation {
     fn check_euler(&self) -> Result<(), String> {
         let n_vertices = self.positions.len() as i64;
         let n_triangles = self.half_edges.n_triangles() as i64;
-        let n_border = self.half_edges.twin.iter().filter(|&&t| t == BORDER).count() as i64;
-        let n_edges = (3 * n_triangles + n_border) / 2;
+        let n_boundary = self.half_edges.twin.iter().filter(|&&t| t == BOUNDARY).count() as i64;
+        let n_edges = (3 * n_triangles + n_boundary) / 2;
         let expected = if self.domain.is_periodic { 0 } else { 1 };
         let euler = n_vertices - n_edges + n_triangles;
         if euler != expected {
@@ -219,7 +219,7 @@ mod tests {
         assert!(illegal.is_some_and(|_| mesh.check_delaunay().is_err()));
     }
 
-    /// Coordinates that trouble geometry: multiples of a coarse grid, borders, near-coincidences, and plain ones.
+    /// Coordinates that trouble geometry: multiples of a coarse grid, boundaries, near-coincidences, and plain ones.
     fn nasty() -> impl Strategy<Value = f64> {
         prop_oneof![
             (0..8u8).prop_map(|k| f64::from(k) / 8.0),

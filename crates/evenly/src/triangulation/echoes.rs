@@ -1,14 +1,14 @@
-//! What the points of a mesh with a border see in it, as in a mirror.
+//! What the points of a mesh with a boundary see in it, as in a mirror.
 
 use glam::DVec2;
 
-use super::half_edges::{BORDER, next};
+use super::half_edges::{BOUNDARY, next};
 use super::held::Held;
 use super::live::LiveMesh;
 use super::spoke::Spoke;
 use crate::star::{Star, Wedge};
 
-/// Where the spokes are a fan at a border, what they show is seen there once more, as in a mirror: the star so goes all around, and rules need not know of borders. At a
+/// Where the spokes are a fan at a boundary, what they show is seen there once more, as in a mirror: the star so goes all around, and rules need not know of boundaries. At a
 /// corner it goes around by twice the corner's angle.
 pub(super) fn close(star: &mut Star, spokes: &mut Vec<Spoke>) {
     let n = spokes.len();
@@ -25,7 +25,7 @@ pub(super) fn close(star: &mut Star, spokes: &mut Vec<Spoke>) {
     }
 }
 
-/// The same for what lies around a vertex on a straight border, along which the ring begins.
+/// The same for what lies around a vertex on a straight boundary, along which the ring begins.
 pub(super) fn reflect(star: &mut Star) {
     let Star { ring, beyond, .. } = star;
     let axis = ring[0].normalize_or_zero();
@@ -38,12 +38,12 @@ pub(super) fn reflect(star: &mut Star) {
     }
 }
 
-/// Whether what lies along a border is hidden from the vertex by this neighbour and its image: so where it sees the three at an obtuse angle.
+/// Whether what lies along a boundary is hidden from the vertex by this neighbour and its image: so where it sees the three at an obtuse angle.
 fn hides(neighbour: &Spoke, along: &Spoke) -> bool {
     (along.way - neighbour.way).dot(neighbour.way) > 0.0
 }
 
-/// Takes away the neighbours along the border that are hidden from the vertex of a closed star, whose fan has so many spokes.
+/// Takes away the neighbours along the boundary that are hidden from the vertex of a closed star, whose fan has so many spokes.
 pub(super) fn hide(star: &mut Star, spokes: &mut Vec<Spoke>, n_in_fan: usize) {
     for (along, neighbour) in [(n_in_fan - 1, n_in_fan - 2), (0, 1)] {
         let n = spokes.len();
@@ -61,7 +61,7 @@ pub(super) fn hide(star: &mut Star, spokes: &mut Vec<Spoke>, n_in_fan: usize) {
 impl LiveMesh {
     /// Whether the side between two neighbouring spokes is an edge that stays.
     pub(super) fn is_wall(&self, held: &Held, spoke: &Spoke, after: &Spoke) -> bool {
-        self.mesh.twin(next(spoke.half_edge)) == BORDER || held.is_line(spoke.vertex, after.vertex)
+        self.mesh.twin(next(spoke.half_edge)) == BOUNDARY || held.is_line(spoke.vertex, after.vertex)
     }
 
     /// Where the cell of `v` would reach across an edge that stays, `v` itself is seen behind that.
@@ -71,7 +71,7 @@ impl LiveMesh {
         while k < spokes.len() {
             let (spoke, after) = (spokes[k], spokes[star.after(k)]);
             k += 1;
-            if spoke.half_edge == BORDER {
+            if spoke.half_edge == BOUNDARY {
                 break;
             }
             // The centre of the triangle lies beyond its side if the angle across is obtuse.

@@ -1,6 +1,6 @@
 //! A frame around a bounded domain: four vertices so far outside that no cell within the domain reaches them.
 //!
-//! With them the triangulation's border never moves, however the points do, and every point is an inner vertex: the part of its Voronoi cell
+//! With them the triangulation's boundary never moves, however the points do, and every point is an inner vertex: the part of its Voronoi cell
 //! that lies in the domain is that of the points alone. No set of points is degenerate then, not even one on a line.
 
 use glam::DVec2;

@@ -1,14 +1,14 @@
 //! Flat half-edges: topology alone, no positions.
 //!
 //! Triangle `t` owns the half-edges `3t`, `3t + 1`, `3t + 2`, in counter-clockwise order. A half-edge knows the vertex it
-//! leaves and the half-edge that runs the other way, in the neighbouring triangle; on a border there is none.
+//! leaves and the half-edge that runs the other way, in the neighbouring triangle; on a boundary there is none.
 
 use std::collections::HashSet;
 
-/// The twin of a half-edge on a border.
-pub(crate) const BORDER: u32 = u32::MAX;
+/// The twin of a half-edge on a boundary.
+pub(crate) const BOUNDARY: u32 = u32::MAX;
 
-/// A triangulated surface, closed or with borders.
+/// A triangulated surface, closed or with boundaries.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct HalfEdges {
     pub origin: Vec<u32>,
@@ -48,17 +48,17 @@ impl HalfEdges {
         self.origin[next(h) as usize]
     }
 
-    pub fn is_border(&self, h: u32) -> bool {
-        self.twin[h as usize] == BORDER
+    pub fn is_boundary(&self, h: u32) -> bool {
+        self.twin[h as usize] == BOUNDARY
     }
 
-    /// All half-edges that leave the origin of `h`, once round it, counter-clockwise; at a border both sides of the gap are visited.
+    /// All half-edges that leave the origin of `h`, once round it, counter-clockwise; at a boundary both sides of the gap are visited.
     pub fn around(&self, h: u32) -> impl Iterator<Item = u32> {
         let mut first = h;
-        // Turn clockwise to the border, if there is one, and start there.
+        // Turn clockwise to the boundary, if there is one, and start there.
         loop {
             let twin = self.twin[first as usize];
-            if twin == BORDER {
+            if twin == BOUNDARY {
                 break;
             }
             first = next(twin);
@@ -70,17 +70,17 @@ impl HalfEdges {
         std::iter::from_fn(move || {
             let current = at?;
             let turned = self.twin[prev(current) as usize];
-            at = (turned != BORDER && turned != first).then_some(turned);
+            at = (turned != BOUNDARY && turned != first).then_some(turned);
             Some(current)
         })
     }
 
-    /// For each vertex a half-edge that leaves it; at a border vertex the one on the border. `BORDER` for a vertex without triangles.
+    /// For each vertex a half-edge that leaves it; at a boundary vertex the one on the boundary. `BOUNDARY` for a vertex without triangles.
     pub fn outgoing(&self, n_vertices: usize) -> Vec<u32> {
-        let mut outgoing = vec![BORDER; n_vertices];
+        let mut outgoing = vec![BOUNDARY; n_vertices];
         for (h, &v) in self.origin.iter().enumerate() {
             let best = &mut outgoing[v as usize];
-            if *best == BORDER || self.twin[h] == BORDER {
+            if *best == BOUNDARY || self.twin[h] == BOUNDARY {
                 *best = h as u32;
             }
         }
@@ -88,7 +88,7 @@ impl HalfEdges {
     }
 
     /// Keeps the triangles for which `first`, given a triangle's number and corners, names a corner, and sorts them by the vertex there, with which each then begins.
-    /// Edges to the others become borders.
+    /// Edges to the others become boundaries.
     pub fn filtered(&self, first: impl Fn(usize, [u32; 3]) -> Option<usize>) -> Self {
         // A counting sort.
         let n_vertices = self.origin.iter().max().map_or(0, |&v| v as usize + 1);
@@ -102,8 +102,8 @@ impl HalfEdges {
             start[v + 1] += start[v];
         }
         let n_kept = start[n_vertices] as usize;
-        let mut kept = Self { origin: vec![0; 3 * n_kept], twin: vec![BORDER; 3 * n_kept] };
-        let mut slots = vec![BORDER; self.n_triangles()];
+        let mut kept = Self { origin: vec![0; 3 * n_kept], twin: vec![BOUNDARY; 3 * n_kept] };
+        let mut slots = vec![BOUNDARY; self.n_triangles()];
         for (t, corners) in self.triangles().enumerate() {
             let Some(first) = first(t, corners) else { continue };
             let slot = &mut start[corners[first] as usize];
@@ -118,21 +118,21 @@ impl HalfEdges {
         }
         // A twin lies in the triangle across, and leaves the vertex at which its half-edge arrives.
         for h in 0..kept.origin.len() {
-            let slot = slots.get(kept.twin[h] as usize).copied().unwrap_or(BORDER);
-            kept.twin[h] = if slot == BORDER { BORDER } else { kept.leaving(slot, kept.target(h as u32)) };
+            let slot = slots.get(kept.twin[h] as usize).copied().unwrap_or(BOUNDARY);
+            kept.twin[h] = if slot == BOUNDARY { BOUNDARY } else { kept.leaving(slot, kept.target(h as u32)) };
         }
         kept
     }
 
-    /// Triangles of so many vertices, counter-clockwise, with borders where none stands on the other side. Of two on the same side of an edge the second is left out.
+    /// Triangles of so many vertices, counter-clockwise, with boundaries where none stands on the other side. Of two on the same side of an edge the second is left out.
     pub fn of_triangles(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]>) -> Self {
         let mut all = Self::default();
         // The last half-edge that leaves each vertex, and for each the one before it.
-        let (mut last, mut before) = (vec![BORDER; n_vertices], Vec::new());
+        let (mut last, mut before) = (vec![BOUNDARY; n_vertices], Vec::new());
         for corners in triangles {
             let sides = [0, 1, 2].map(|k| [corners[k], corners[(k + 1) % 3]]);
             let find = |all: &Self, [from, to]: [u32; 2]| {
-                let is_one = |&h: &u32| h != BORDER;
+                let is_one = |&h: &u32| h != BOUNDARY;
                 let leaving = std::iter::successors(Some(last[from as usize]).filter(is_one), |&h| Some(before[h as usize]).filter(is_one));
                 { leaving }.find(|&h| all.target(h) == to)
             };
@@ -146,7 +146,7 @@ impl HalfEdges {
                     all.twin[twin as usize] = h;
                 }
                 all.origin.push(from);
-                all.twin.push(twin.unwrap_or(BORDER));
+                all.twin.push(twin.unwrap_or(BOUNDARY));
                 before.push(std::mem::replace(&mut last[from as usize], h));
             }
         }
@@ -164,7 +164,7 @@ impl HalfEdges {
             let mut stack = vec![first];
             component[first] = n_found;
             while let Some(t) = stack.pop() {
-                for &twin in self.twin[3 * t..3 * t + 3].iter().filter(|&&twin| twin != BORDER) {
+                for &twin in self.twin[3 * t..3 * t + 3].iter().filter(|&&twin| twin != BOUNDARY) {
                     let across = twin as usize / 3;
                     if component[across] == u32::MAX {
                         component[across] = n_found;
@@ -186,7 +186,7 @@ impl HalfEdges {
                 return Err(format!("half-edge {h} from {} to {} is there twice", ends[0], ends[1]));
             }
             let twin = self.twin[h as usize];
-            if twin != BORDER
+            if twin != BOUNDARY
                 && (self.twin.get(twin as usize) != Some(&h) || self.origin[twin as usize] != ends[1] || self.target(twin) != ends[0])
             {
                 return Err(format!("half-edges {h} and {twin} are no twins"));
@@ -195,7 +195,7 @@ impl HalfEdges {
         let mut n_leaving = vec![0; n_vertices];
         self.origin.iter().for_each(|&v| n_leaving[v as usize] += 1);
         let outgoing = self.outgoing(n_vertices);
-        match (0..n_vertices).find(|&v| outgoing[v] == BORDER || self.around(outgoing[v]).count() != n_leaving[v]) {
+        match (0..n_vertices).find(|&v| outgoing[v] == BOUNDARY || self.around(outgoing[v]).count() != n_leaving[v]) {
             Some(v) => Err(format!("vertex {v} has no triangles, or more than one fan")),
             None => Ok(()),
         }
@@ -233,23 +233,23 @@ mod tests {
 
     /// A square 0 1 2 3 cut along 0-2.
     fn square() -> HalfEdges {
-        HalfEdges { origin: vec![0, 1, 2, 0, 2, 3], twin: vec![BORDER, BORDER, 3, 2, BORDER, BORDER] }
+        HalfEdges { origin: vec![0, 1, 2, 0, 2, 3], twin: vec![BOUNDARY, BOUNDARY, 3, 2, BOUNDARY, BOUNDARY] }
     }
 
     #[test]
-    fn walking_around_a_border_vertex_meets_every_triangle_once() {
+    fn walking_around_a_boundary_vertex_meets_every_triangle_once() {
         let mesh = square();
         assert_eq!(mesh.around(3).collect::<Vec<_>>(), [0, 3]);
         assert_eq!(mesh.around(1).collect::<Vec<_>>(), [1]);
-        assert_eq!(mesh.outgoing(5), [0, 1, 4, 5, BORDER]);
+        assert_eq!(mesh.outgoing(5), [0, 1, 4, 5, BOUNDARY]);
     }
 
     #[test]
-    fn filtering_orders_triangles_and_opens_borders() {
+    fn filtering_orders_triangles_and_opens_boundaries() {
         let mesh = square();
         let all = mesh.filtered(|_, t| Some(smallest(t)));
-        assert_eq!(all.twin.iter().filter(|&&t| t != BORDER).count(), 2);
+        assert_eq!(all.twin.iter().filter(|&&t| t != BOUNDARY).count(), 2);
         let one = mesh.filtered(|_, t| t.contains(&3).then_some(0));
-        assert_eq!(one, HalfEdges { origin: vec![0, 2, 3], twin: vec![BORDER; 3] });
+        assert_eq!(one, HalfEdges { origin: vec![0, 2, 3], twin: vec![BOUNDARY; 3] });
     }
 }

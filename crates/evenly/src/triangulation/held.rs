@@ -1,4 +1,4 @@
-//! What holds the points of a mesh with a border: rails along which they slide, lines that stay edges, and a spacing that varies.
+//! What holds the points of a mesh with a boundary: rails along which they slide, lines that stay edges, and a spacing that varies.
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -24,11 +24,11 @@ pub(crate) enum Track {
 /// An edge that must be there.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Edge {
-    /// Its points; on the border with the inside on their left.
+    /// Its points; on the boundary with the inside on their left.
     pub ends: [u32; 2],
     /// The rail on which it lies.
     pub rail: u32,
-    /// Whether it lies inside, not on the border.
+    /// Whether it lies inside, not on the boundary.
     pub is_line: bool,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Bonds {
     pub tracks: Vec<Track>,
     /// The two ends of each rail.
     pub rails: Vec<[DVec2; 2]>,
-    /// The edges on the border and on lines.
+    /// The edges on the boundary and on lines.
     pub edges: Vec<Edge>,
     pub sizing: Arc<Sizing>,
     /// The triangle of the sizing in which each point is, or one nearby.
@@ -46,7 +46,7 @@ pub(crate) struct Bonds {
 }
 
 impl Bonds {
-    /// The ends of the edges on the border, and of those on lines.
+    /// The ends of the edges on the boundary, and of those on lines.
     pub fn segments(&self) -> [Vec<[u32; 2]>; 2] {
         [false, true].map(|is_line| self.edges.iter().filter(|edge| edge.is_line == is_line).map(|edge| edge.ends).collect())
     }
@@ -173,21 +173,21 @@ impl Held {
     }
 }
 
-/// For corners of the border half a turn over their angle, as stars there show all twice; 1 for the others.
+/// For corners of the boundary half a turn over their angle, as stars there show all twice; 1 for the others.
 fn fullness(bonds: &Bonds, planar: &Planar) -> Vec<f64> {
     let Planar { half_edges, positions, source, .. } = planar;
     let is_corner = |v: u32| bonds.tracks[source[v as usize] as usize] == Track::Fixed;
     let mut angles = vec![0.0; positions.len()];
-    let mut is_on_border = vec![false; positions.len()];
+    let mut is_on_boundary = vec![false; positions.len()];
     for h in 0..half_edges.origin.len() as u32 {
         let v = half_edges.origin[h as usize];
         if is_corner(v) {
             let [u, w] =
                 [half_edges.target(h), half_edges.origin[prev(h) as usize]].map(|other| positions[other as usize] - positions[v as usize]);
             angles[v as usize] += u.angle_to(w);
-            is_on_border[v as usize] |= half_edges.is_border(h);
+            is_on_boundary[v as usize] |= half_edges.is_boundary(h);
         }
     }
-    let all = angles.into_iter().zip(is_on_border);
-    all.map(|(angle, is_on_border)| if is_on_border { std::f64::consts::PI / angle } else { 1.0 }).collect()
+    let all = angles.into_iter().zip(is_on_boundary);
+    all.map(|(angle, is_on_boundary)| if is_on_boundary { std::f64::consts::PI / angle } else { 1.0 }).collect()
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::delaunay::delaunay;
 use super::frame::{FRAME, framed};
-use super::half_edges::{BORDER, next};
+use super::half_edges::{BOUNDARY, next};
 use super::held::{Bonds, Held};
 use super::mesh::Triangulation;
 use super::patience::Patience;
@@ -16,7 +16,7 @@ use super::shared::{SharedMesh, Territory};
 use crate::density::Field;
 use crate::error::Error;
 use crate::predicates::is_in_circle;
-use crate::space::{Border, Domain};
+use crate::space::{Boundary, Domain};
 
 /// A triangulation of points that [`relocate`](Self::relocate) moves and [`read`](Self::read) shows, from several threads.
 ///
@@ -41,7 +41,7 @@ pub(crate) struct LiveMesh {
     pub(super) shares: Vec<f64>,
     /// How patiently points that something keeps from rest are visited.
     pub patience: Patience,
-    /// What holds the points of a mesh with a border.
+    /// What holds the points of a mesh with a boundary.
     pub(super) held: Option<Held>,
     /// Whether a point and its copies have gone different ways, or the cover has become too small.
     pub(super) is_torn: AtomicBool,
@@ -55,12 +55,12 @@ pub(super) const LEAST_DENSITY: f64 = 1e-6;
 pub(crate) struct Outside;
 
 /// For each point the mean capacity over that of the part of a polygon in which it lies: no point goes from one part to another, so each part has a mean of its own. Empty where there is one part.
-pub(crate) fn part_shares(border: &Border, points: &[DVec2], field: Option<&Field>) -> Vec<f64> {
-    if border.n_parts() < 2 {
+pub(crate) fn part_shares(boundary: &Boundary, points: &[DVec2], field: Option<&Field>) -> Vec<f64> {
+    if boundary.n_parts() < 2 {
         return Vec::new();
     }
-    let parts: Vec<usize> = points.par_iter().map(|&p| border.part_of(p)).collect();
-    let masses = field.map_or_else(|| border.part_areas().to_vec(), |field| field.part_masses(border));
+    let parts: Vec<usize> = points.par_iter().map(|&p| boundary.part_of(p)).collect();
+    let masses = field.map_or_else(|| boundary.part_areas().to_vec(), |field| field.part_masses(boundary));
     let mut n_points = vec![0.0; masses.len()];
     parts.iter().for_each(|&part| n_points[part] += 1.0);
     let mean = masses.iter().sum::<f64>() / points.len() as f64;
@@ -78,10 +78,11 @@ impl LiveMesh {
     pub fn of(base: &Domain, field: Option<Field>, triangulation: Triangulation, spacing: f64) -> Self {
         let n_frame = if base.is_periodic { 0 } else { FRAME.len() };
         let Triangulation { half_edges, positions, domain, copies, order } = triangulation;
-        let is_patient = domain.border.is_some() || field.as_ref().is_some_and(Field::has_gaps);
-        let share_at_boundary = domain.border.as_ref().map_or(0.0, |border| 0.5 * border.length() * spacing / border.area);
+        let is_patient = domain.boundary.is_some() || field.as_ref().is_some_and(Field::has_gaps);
+        let share_at_boundary = domain.boundary.as_ref().map_or(0.0, |boundary| 0.5 * boundary.length() * spacing / boundary.area);
         let patience = if is_patient { Patience::of(order.len(), share_at_boundary) } else { Patience::default() };
-        let shares = domain.border.as_ref().map_or_else(Vec::new, |border| part_shares(border, &positions[..order.len()], field.as_ref()));
+        let shares =
+            domain.boundary.as_ref().map_or_else(Vec::new, |boundary| part_shares(boundary, &positions[..order.len()], field.as_ref()));
         Self {
             mesh: SharedMesh::new(&half_edges, positions.iter().map(|p| p.to_array())),
             base: base.clone(),
@@ -99,14 +100,14 @@ impl LiveMesh {
         }
     }
 
-    /// The constrained Delaunay triangulation of points of a domain with a border. Its points are the triangulation's vertices: parts of the inside that touch in a
+    /// The constrained Delaunay triangulation of points of a domain with a boundary. Its points are the triangulation's vertices: parts of the inside that touch in a
     /// point have one each there.
     ///
     /// # Errors
     /// [`Crossing`] where two segments between the points cross.
     pub fn bounded(base: &Domain, points: &[DVec2], bonds: Bonds, spacing: f64) -> Result<Self, Crossing> {
-        let [border, lines] = bonds.segments();
-        let planar = planar(Graph { points, border: &border, lines: &lines })?;
+        let [boundary, lines] = bonds.segments();
+        let planar = planar(Graph { points, boundary: &boundary, lines: &lines })?;
         let mesh = SharedMesh::new(&planar.half_edges, planar.positions.iter().map(|p| p.to_array()));
         Ok(Self {
             mesh,
@@ -141,8 +142,8 @@ impl LiveMesh {
         Self { spacing, ..self }
     }
 
-    pub fn border(&self) -> Option<&Border> {
-        self.domain.border.as_deref()
+    pub fn boundary(&self) -> Option<&Boundary> {
+        self.domain.boundary.as_deref()
     }
 
     pub fn has_fixed(&self) -> bool {
@@ -167,7 +168,7 @@ impl LiveMesh {
                 let mut points = vec![DVec2::ZERO; bonds.tracks.len()];
                 held.source.iter().zip(places).for_each(|(&point, place)| points[point as usize] = place);
                 let rebuilt = Self::bounded(&self.base, &points, bonds, self.spacing);
-                rebuilt.map_err(|Crossing(_)| Error::Degenerate("the border has come to cross itself".into()))?
+                rebuilt.map_err(|Crossing(_)| Error::Degenerate("the boundary has come to cross itself".into()))?
             }
         };
         Ok(())
@@ -261,7 +262,7 @@ impl LiveMesh {
     /// Whether points move freely among their like on a torus: nothing varies, holds them, or stands in their way.
     pub fn is_plain(&self) -> bool {
         let is_free = self.held.is_none() && self.fixed.is_empty() && self.shares.is_empty() && !self.patience.has_any();
-        is_free && self.field.is_none() && self.domain.is_periodic && self.domain.border.is_none() && !self.is_cover()
+        is_free && self.field.is_none() && self.domain.is_periodic && self.domain.boundary.is_none() && !self.is_cover()
     }
 
     /// Says that all points must be looked at again.
@@ -301,10 +302,10 @@ impl LiveMesh {
         v >= self.n_live || self.mesh.is_within(v, territory)
     }
 
-    /// Whether the edge of `h` must be flipped. Exact; never on a border. Where the other diagonal is too long for the cover, the mesh is
+    /// Whether the edge of `h` must be flipped. Exact; never on a boundary. Where the other diagonal is too long for the cover, the mesh is
     /// torn instead.
     pub(super) fn is_illegal(&self, h: u32) -> bool {
-        if self.mesh.twin(h) == BORDER {
+        if self.mesh.twin(h) == BOUNDARY {
             return false;
         }
         let [p, q, r, s] = self.mesh.quadrilateral(h);

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::half_edges::{BORDER, HalfEdges, next, prev};
+use super::half_edges::{BOUNDARY, HalfEdges, next, prev};
 use super::patch::Patch;
 use crate::predicates::is_in_circle;
 use crate::space::Domain;
@@ -41,12 +41,12 @@ impl Triangulation {
         self.domain.contains(self.positions[corners[0] as usize] + circumcentre(u, v))
     }
 
-    /// Whether the edge of `h` must be flipped: the vertex across lies inside the circumcircle. Exact; never on a border.
+    /// Whether the edge of `h` must be flipped: the vertex across lies inside the circumcircle. Exact; never on a boundary.
     #[inline]
     pub fn is_illegal(&self, h: u32) -> bool {
         let mesh = &self.half_edges;
         let twin = mesh.twin[h as usize];
-        if twin == BORDER {
+        if twin == BOUNDARY {
             return false;
         }
         let at = |h: u32| self.positions[mesh.origin[h as usize] as usize];

@@ -28,7 +28,7 @@ mod within;
 
 pub(crate) use chunks::Chunks;
 pub(crate) use delaunay::delaunay;
-pub(crate) use half_edges::{BORDER, HalfEdges, next, prev, smallest};
+pub(crate) use half_edges::{BOUNDARY, HalfEdges, next, prev, smallest};
 pub(crate) use held::{Bonds, Edge, Track};
 pub(crate) use live::{LiveMesh, Outside, part_shares};
 pub(crate) use mesh::{Triangulation, circumcentre};

@@ -1,24 +1,24 @@
-//! The constrained Delaunay triangulation of what rings of segments enclose, by crate `spade`. Nothing stands outside, so nothing is seen across a border.
+//! The constrained Delaunay triangulation of what rings of segments enclose, by crate `spade`. Nothing stands outside, so nothing is seen across a boundary.
 
 use std::collections::HashSet;
 
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Intersection, LineIntersectionIterator, Triangulation as _};
 
-use super::half_edges::{BORDER, HalfEdges, prev, smallest};
+use super::half_edges::{BOUNDARY, HalfEdges, prev, smallest};
 use super::plane::{Site, brought_in, sites};
 
 /// Distinct points, and segments between them, by their indices.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Graph<'a> {
     pub points: &'a [DVec2],
-    /// Rings: what an odd number of them enclose is inside. A segment that is there twice is no border.
-    pub border: &'a [[u32; 2]],
+    /// Rings: what an odd number of them enclose is inside. A segment that is there twice is no boundary.
+    pub boundary: &'a [[u32; 2]],
     /// Segments inside that must be edges.
     pub lines: &'a [[u32; 2]],
 }
 
-/// A triangulation with a border.
+/// A triangulation with a boundary.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Planar {
     pub half_edges: HalfEdges,
@@ -33,12 +33,12 @@ pub(crate) struct Planar {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Crossing(pub Vec<[u32; 2]>);
 
-/// Triangulates what the border encloses; points outside are left out.
+/// Triangulates what the boundary encloses; points outside are left out.
 ///
 /// # Errors
 /// [`Crossing`] where segments cross.
 pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
-    let all = || graph.border.iter().chain(graph.lines);
+    let all = || graph.boundary.iter().chain(graph.lines);
     let segments = all().map(|segment| segment.map(|v| v as usize)).collect();
     let mut crossing = Vec::new();
     let on_conflict = |[a, b]: [usize; 2]| crossing.push([a as u32, b as u32]);
@@ -49,11 +49,11 @@ pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
         return Err(Crossing(crossing));
     }
 
-    // How often the border runs along each half-edge, and which are lines.
+    // How often the boundary runs along each half-edge, and which are lines.
     let (mut half_edges, slot) = brought_in(&cdt);
     let mut handles = vec![None; graph.points.len()];
     cdt.vertices().for_each(|vertex| handles[vertex.data().index as usize] = Some(vertex.fix()));
-    let mut n_borders = vec![0u32; half_edges.origin.len()];
+    let mut n_boundaries = vec![0u32; half_edges.origin.len()];
     let mut is_line = vec![false; half_edges.origin.len()];
     for (number, &segment) in all().enumerate() {
         let [Some(from), Some(to)] = segment.map(|v| handles[v as usize]) else { return Err(Crossing(vec![segment])) };
@@ -66,25 +66,25 @@ pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
         if pieces.last().is_none_or(|last| last.to().fix() != to) {
             return Err(Crossing(vec![segment]));
         }
-        let is_border = number < graph.border.len();
+        let is_boundary = number < graph.boundary.len();
         for piece in pieces {
-            for h in [piece, piece.rev()].map(|edge| slot[edge.fix().index()]).into_iter().filter(|&h| h != BORDER) {
-                n_borders[h as usize] += u32::from(is_border);
-                is_line[h as usize] |= !is_border;
+            for h in [piece, piece.rev()].map(|edge| slot[edge.fix().index()]).into_iter().filter(|&h| h != BOUNDARY) {
+                n_boundaries[h as usize] += u32::from(is_boundary);
+                is_line[h as usize] |= !is_boundary;
             }
         }
     }
 
-    // What is inside, cut open along the border.
-    let is_border = |h: u32| n_borders[h as usize] % 2 == 1;
-    let is_inside = flood(&half_edges, is_border);
+    // What is inside, cut open along the boundary.
+    let is_boundary = |h: u32| n_boundaries[h as usize] % 2 == 1;
+    let is_inside = flood(&half_edges, is_boundary);
     let pair = |half_edges: &HalfEdges, h: u32| {
         let (a, b) = (half_edges.origin[h as usize], half_edges.target(h));
         [a.min(b), a.max(b)]
     };
     let all = 0..half_edges.origin.len() as u32;
     let line_points: HashSet<[u32; 2]> = all.clone().filter(|&h| is_line[h as usize]).map(|h| pair(&half_edges, h)).collect();
-    all.filter(|&h| is_border(h)).for_each(|h| half_edges.twin[h as usize] = BORDER);
+    all.filter(|&h| is_boundary(h)).for_each(|h| half_edges.twin[h as usize] = BOUNDARY);
     let mut half_edges = half_edges.filtered(|t, corners| is_inside[t].then(|| smallest(corners)));
     let source = separate_fans(&mut half_edges, graph.points.len());
     let of_points = |[a, b]: [u32; 2]| {
@@ -93,7 +93,7 @@ pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
     };
     let mut lines = HashSet::new();
     if !line_points.is_empty() {
-        let inner = (0..half_edges.origin.len() as u32).filter(|&h| !half_edges.is_border(h)).map(|h| pair(&half_edges, h));
+        let inner = (0..half_edges.origin.len() as u32).filter(|&h| !half_edges.is_boundary(h)).map(|h| pair(&half_edges, h));
         lines.extend(inner.filter(|&ends| line_points.contains(&of_points(ends))));
     }
     let positions = source.iter().map(|&point| graph.points[point as usize]).collect();
@@ -103,13 +103,13 @@ pub(crate) fn planar(graph: Graph) -> Result<Planar, Crossing> {
 /// Renumbers the vertices, so that each has triangles, all in one fan. Returns the point that each stands for.
 fn separate_fans(half_edges: &mut HalfEdges, n_points: usize) -> Vec<u32> {
     let is_used = half_edges.outgoing(n_points);
-    let mut source: Vec<u32> = (0..n_points as u32).filter(|&v| is_used[v as usize] != BORDER).collect();
-    let mut number = vec![BORDER; n_points];
+    let mut source: Vec<u32> = (0..n_points as u32).filter(|&v| is_used[v as usize] != BOUNDARY).collect();
+    let mut number = vec![BOUNDARY; n_points];
     source.iter().zip(0..).for_each(|(&point, v)| number[point as usize] = v);
     half_edges.origin.iter_mut().for_each(|v| *v = number[*v as usize]);
     let mut has_fan = vec![false; source.len()];
     for start in 0..half_edges.origin.len() as u32 {
-        if !half_edges.is_border(start) {
+        if !half_edges.is_boundary(start) {
             continue;
         }
         let v = half_edges.origin[start as usize];
@@ -121,7 +121,7 @@ fn separate_fans(half_edges: &mut HalfEdges, n_points: usize) -> Vec<u32> {
         source.push(source[v as usize]);
         has_fan.push(true);
         let mut h = start;
-        while h != BORDER {
+        while h != BOUNDARY {
             half_edges.origin[h as usize] = another;
             h = half_edges.twin[prev(h) as usize];
         }
@@ -129,18 +129,18 @@ fn separate_fans(half_edges: &mut HalfEdges, n_points: usize) -> Vec<u32> {
     source
 }
 
-/// Which triangles lie inside: those that are reached from outside across an odd number of borders.
-fn flood(half_edges: &HalfEdges, is_border: impl Fn(u32) -> bool) -> Vec<bool> {
+/// Which triangles lie inside: those that are reached from outside across an odd number of boundaries.
+fn flood(half_edges: &HalfEdges, is_boundary: impl Fn(u32) -> bool) -> Vec<bool> {
     let mut is_inside: Vec<Option<bool>> = vec![None; half_edges.n_triangles()];
-    let hull = (0..half_edges.origin.len() as u32).filter(|&h| half_edges.is_border(h));
-    let mut stack: Vec<(u32, bool)> = hull.map(|h| (h / 3, is_border(h))).collect();
+    let hull = (0..half_edges.origin.len() as u32).filter(|&h| half_edges.is_boundary(h));
+    let mut stack: Vec<(u32, bool)> = hull.map(|h| (h / 3, is_boundary(h))).collect();
     while let Some((t, is)) = stack.pop() {
         if is_inside[t as usize].is_some() {
             continue;
         }
         is_inside[t as usize] = Some(is);
-        let across = (3 * t..3 * t + 3).map(|h| (half_edges.twin[h as usize], is != is_border(h)));
-        stack.extend(across.filter(|&(twin, _)| twin != BORDER).map(|(twin, is)| (twin / 3, is)));
+        let across = (3 * t..3 * t + 3).map(|h| (half_edges.twin[h as usize], is != is_boundary(h)));
+        stack.extend(across.filter(|&(twin, _)| twin != BOUNDARY).map(|(twin, is)| (twin / 3, is)));
     }
     is_inside.into_iter().map(|is| is == Some(true)).collect()
 }

@@ -4,7 +4,7 @@ use delaunator::EMPTY;
 use glam::DVec2;
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
-use super::half_edges::{BORDER, HalfEdges};
+use super::half_edges::{BOUNDARY, HalfEdges};
 use crate::error::Error;
 use crate::points::Random;
 use crate::space::Domain;
@@ -41,7 +41,7 @@ pub(super) fn delaunay(points: impl Iterator<Item = DVec2>) -> Result<HalfEdges,
 
 /// What `spade` has made as flat half-edges, and for each of its directed edges which of them it is.
 pub(super) fn brought_in(mesh: &impl spade::Triangulation<Vertex = Site>) -> (HalfEdges, Vec<u32>) {
-    let mut slot = vec![BORDER; mesh.num_directed_edges()];
+    let mut slot = vec![BOUNDARY; mesh.num_directed_edges()];
     let mut origin = Vec::with_capacity(3 * mesh.num_inner_faces());
     for face in mesh.inner_faces() {
         for edge in face.adjacent_edges() {
@@ -49,10 +49,10 @@ pub(super) fn brought_in(mesh: &impl spade::Triangulation<Vertex = Site>) -> (Ha
             origin.push(edge.from().data().index);
         }
     }
-    let mut twin = vec![BORDER; origin.len()];
+    let mut twin = vec![BOUNDARY; origin.len()];
     for edge in mesh.directed_edges() {
         let h = slot[edge.fix().index()];
-        if h != BORDER {
+        if h != BOUNDARY {
             twin[h as usize] = slot[edge.rev().fix().index()];
         }
     }
@@ -82,7 +82,7 @@ pub(super) fn nearly_delaunay(points: impl Iterator<Item = DVec2>) -> HalfEdges 
     let points: Vec<delaunator::Point> = points.map(|p| delaunator::Point { x: p.x, y: p.y }).collect();
     let delaunator::Triangulation { triangles, halfedges, .. } = delaunator::triangulate(&points);
     // Its triangles run clockwise: ours are those read backwards, half-edge k being the reverse of its half-edge 2 - k.
-    let mirrored = |h: usize| if h == EMPTY { BORDER } else { (h - h % 3 + 2 - h % 3) as u32 };
+    let mirrored = |h: usize| if h == EMPTY { BOUNDARY } else { (h - h % 3 + 2 - h % 3) as u32 };
     let origin = triangles.chunks_exact(3).flat_map(|t| [t[0], t[2], t[1]]).map(|v| v as u32).collect();
     let twin = halfedges.chunks_exact(3).flat_map(|t| [t[2], t[1], t[0]]).map(mirrored).collect();
     HalfEdges { origin, twin }

@@ -1,6 +1,6 @@
-//! Delaunay refinement: points are added to a triangulation with a border until no triangle is thin.
+//! Delaunay refinement: points are added to a triangulation with a boundary until no triangle is thin.
 //!
-//! Ruppert, "A Delaunay Refinement Algorithm for Quality 2-Dimensional Mesh Generation", Journal of Algorithms 18(3), 1995, doi 10.1006/jagm.1995.1021. A segment of the border
+//! Ruppert, "A Delaunay Refinement Algorithm for Quality 2-Dimensional Mesh Generation", Journal of Algorithms 18(3), 1995, doi 10.1006/jagm.1995.1021. A segment of the boundary
 //! is halved where a vertex lies in its diametral circle; else a thin triangle's circumcentre is added, or, where that would lie in the diametral circle of a segment or behind
 //! one, the segment is halved. Here nothing is halved below a floor: domains may be thinner than is worth following. Lines inside are segments as well.
 
@@ -8,7 +8,7 @@ use std::collections::{HashMap, VecDeque};
 
 use glam::DVec2;
 
-use super::half_edges::{BORDER, HalfEdges, next, prev};
+use super::half_edges::{BOUNDARY, HalfEdges, next, prev};
 use super::mesh::circumcentre;
 use super::patch::Patch;
 use super::planar::Planar;
@@ -40,7 +40,7 @@ pub(crate) struct Refining<'a> {
 pub(crate) struct Refinement {
     pub half_edges: HalfEdges,
     pub positions: Vec<DVec2>,
-    /// The segment of the input on which a half-edge of the border lies, or of a line in its direction, by its ends.
+    /// The segment of the input on which a half-edge of the boundary lies, or of a line in its direction, by its ends.
     pub segments: HashMap<[u32; 2], u32>,
     /// Whether some of them lie inside.
     has_lines: bool,
@@ -69,10 +69,10 @@ fn off_centre(aspect: f64) -> f64 {
 const MAX_STEPS: usize = 10_000;
 
 impl Refinement {
-    /// Refines a triangulation; `segments` tells for each half-edge of its border, and of lines, by its ends, on which segment of the input it lies.
+    /// Refines a triangulation; `segments` tells for each half-edge of its boundary, and of lines, by its ends, on which segment of the input it lies.
     pub fn run(planar: Planar, segments: HashMap<[u32; 2], u32>, refining: Refining) -> Self {
-        let n_border = planar.half_edges.twin.iter().filter(|&&twin| twin == BORDER).count();
-        let has_lines = segments.len() > n_border;
+        let n_boundary = planar.half_edges.twin.iter().filter(|&&twin| twin == BOUNDARY).count();
+        let has_lines = segments.len() > n_boundary;
         let mut refinement = Self { half_edges: planar.half_edges, positions: planar.positions, segments, has_lines };
         refinement.legalize((0..refinement.half_edges.origin.len() as u32).collect());
         let n_suspects = if refining.halves_all { refinement.half_edges.origin.len() as u32 } else { 0 };
@@ -123,11 +123,11 @@ impl Refinement {
         a.distance(b)
     }
 
-    /// Whether a half-edge lies on the border or a line.
+    /// Whether a half-edge lies on the boundary or a line.
     fn is_segment(&self, h: u32) -> bool {
         let [from, to] = [self.half_edges.origin[h as usize], self.half_edges.target(h)];
         let is_line = || self.segments.contains_key(&[from, to]) || self.segments.contains_key(&[to, from]);
-        self.half_edges.is_border(h) || self.has_lines && is_line()
+        self.half_edges.is_boundary(h) || self.has_lines && is_line()
     }
 
     fn is_in_diametral_circle(&self, h: u32, p: DVec2) -> bool {
@@ -248,7 +248,7 @@ impl Refinement {
         twin.extend([second, n + 5, 3 * t + 1, third, 3 * t + 2, n + 1]);
         (twin[3 * t as usize + 1], twin[3 * t as usize + 2]) = (n + 2, n + 4);
         for (across, edge) in [(second, n), (third, n + 3)] {
-            if across != BORDER {
+            if across != BOUNDARY {
                 twin[across as usize] = edge;
             }
         }
@@ -259,7 +259,7 @@ impl Refinement {
     /// Two triangles for each at an edge.
     fn split_edge(&mut self, h: u32, p: DVec2) -> Option<u32> {
         let other = self.half_edges.twin[h as usize];
-        let sides = if other == BORDER { vec![h] } else { vec![h, other] };
+        let sides = if other == BOUNDARY { vec![h] } else { vec![h, other] };
         let is_inside = sides.iter().all(|&side| {
             let [a, b] = [self.half_edges.origin[side as usize], self.half_edges.target(side)];
             let c = self.half_edges.origin[prev(side) as usize];
@@ -285,10 +285,10 @@ impl Refinement {
             let (b, c) = (origin[next(side) as usize], origin[prev(side) as usize]);
             let across = twin[next(side) as usize];
             origin.extend([v, b, c]);
-            twin.extend([BORDER, across, next(side)]);
+            twin.extend([BOUNDARY, across, next(side)]);
             origin[next(side) as usize] = v;
             twin[next(side) as usize] = new + 2;
-            if across != BORDER {
+            if across != BOUNDARY {
                 twin[across as usize] = new + 1;
             }
             suspects.extend([prev(side), new + 1]);

@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use glam::DVec2;
 
-use super::half_edges::{BORDER, next};
+use super::half_edges::{BOUNDARY, next};
 use super::live::{LiveMesh, Outside};
 use super::shared::Territory;
 use super::stars::StarBuffer;
@@ -77,8 +77,8 @@ impl LiveMesh {
         let way = target - from;
         let mut share = 1f64;
         for (k, spoke) in ring.iter().enumerate() {
-            let is_on_border = ring[ring.len() - 1].half_edge == BORDER && (k == 0 || k + 1 == ring.len());
-            if is_on_border || self.held.as_ref().is_some_and(|held| held.is_line(v, spoke.vertex)) {
+            let is_on_boundary = ring[ring.len() - 1].half_edge == BOUNDARY && (k == 0 || k + 1 == ring.len());
+            if is_on_boundary || self.held.as_ref().is_some_and(|held| held.is_line(v, spoke.vertex)) {
                 let nearer = way.dot(spoke.way) / spoke.squared;
                 let most = if spoke.squared > LEAST_GAP * LEAST_GAP { STAGE } else { 0.0 };
                 if nearer > most {
@@ -137,7 +137,7 @@ impl LiveMesh {
             if half_edge == first {
                 break;
             }
-            if !PLAIN && half_edge == BORDER {
+            if !PLAIN && half_edge == BOUNDARY {
                 if !self.is_free(start, territory) {
                     return Err(Outside);
                 }
@@ -164,7 +164,7 @@ impl LiveMesh {
             }
             // Twice a triangle's area falls by t way x rim on the part t of the way.
             let ring = &buffer.moving;
-            let all = ring.iter().enumerate().filter(|(_, spoke)| spoke.half_edge != BORDER);
+            let all = ring.iter().enumerate().filter(|(_, spoke)| spoke.half_edge != BOUNDARY);
             let rims = all.map(|(k, spoke)| (spoke, ring.get(k + 1).unwrap_or(&ring[0])));
             let losses = rims.clone().map(|(spoke, after)| (spoke.cross, way.perp_dot(after.way - spoke.way)));
             let clear = losses.filter(|&(_, loss)| loss > 0.0).map(|(area, loss)| area / loss).fold(f64::INFINITY, f64::min);

@@ -8,7 +8,7 @@ use super::stars::StarBuffer;
 use crate::error::Error;
 use crate::star::Senses;
 
-/// The triangles whose circumcentre lies inside; in a polygon of points that see each other, whoever stands behind a border. All of them on a torus.
+/// The triangles whose circumcentre lies inside; in a polygon of points that see each other, whoever stands behind a boundary. All of them on a torus.
 ///
 /// # Errors
 /// [`Error::Degenerate`] where the points cannot be triangulated.
@@ -17,7 +17,7 @@ pub(crate) fn clipped(triangulation: &Triangulation) -> Result<HalfEdges, Error>
     if domain.is_periodic {
         return Ok(half_edges.filtered(|_, corners| Some(smallest(corners))));
     }
-    if domain.border.is_none() {
+    if domain.boundary.is_none() {
         return Ok(half_edges.filtered(|_, corners| triangulation.has_centre_inside(corners).then_some(smallest(corners))));
     }
     let n_points = positions.len();

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
 use glam::DVec2;
 
-use super::half_edges::{BORDER, HalfEdges, next, prev};
+use super::half_edges::{BOUNDARY, HalfEdges, next, prev};
 
 /// Half-edges and vertices, as in [`HalfEdges`], but shared. Of each vertex there are `N` numbers: where it is, and what belongs to the place.
 pub(crate) struct SharedMesh<const N: usize> {
@@ -21,7 +21,7 @@ pub(crate) struct SharedMesh<const N: usize> {
 /// All that belongs to a vertex, side by side.
 struct Vertex<const N: usize> {
     place: [AtomicU64; N],
-    /// A half-edge that leaves it; on a border that which lies there.
+    /// A half-edge that leaves it; on a boundary that which lies there.
     outgoing: AtomicU32,
     /// Its block, and whether it is dirty.
     mark: AtomicU32,
@@ -110,7 +110,7 @@ impl<const N: usize> SharedMesh<N> {
             self.vertices[origin as usize].outgoing.store(h, Relaxed);
         }
         for (h, (_, across)) in (3 * t..).zip(rims) {
-            if across != BORDER {
+            if across != BOUNDARY {
                 self.set(across, self.origin(across), h);
             }
         }
@@ -140,20 +140,20 @@ impl<const N: usize> SharedMesh<N> {
         self.replace(triangles, corners, &made);
     }
 
-    /// Makes triangles in the place of others. Walks around corners on a border still begin there.
+    /// Makes triangles in the place of others. Walks around corners on a boundary still begin there.
     fn replace(&self, old: [u32; 3], corners: [u32; 3], made: &[(u32, [(u32, u32); 3])]) {
         let starts = corners.map(|v| self.outgoing(v));
-        let are_on_border = starts.map(|h| self.twin(h) == BORDER);
+        let are_on_boundary = starts.map(|h| self.twin(h) == BOUNDARY);
         made.iter().for_each(|&(t, rims)| self.make_triangle(t, rims));
-        for ((v, start), _) in corners.into_iter().zip(starts).zip(are_on_border).filter(|&(_, is_on_border)| is_on_border) {
+        for ((v, start), _) in corners.into_iter().zip(starts).zip(are_on_boundary).filter(|&(_, is_on_boundary)| is_on_boundary) {
             let rims = || made.iter().flat_map(|(t, rims)| (3 * t..).zip(*rims));
-            let moved = || rims().find(|&(_, (origin, twin))| origin == v && twin == BORDER).map(|(h, _)| h);
+            let moved = || rims().find(|&(_, (origin, twin))| origin == v && twin == BOUNDARY).map(|(h, _)| h);
             let start = if old.contains(&(start / 3)) { moved() } else { Some(start) };
             start.into_iter().for_each(|h| self.vertices[v as usize].outgoing.store(h, Relaxed));
         }
     }
 
-    /// A half-edge that leaves `v`; on a border that which lies there, the first counter-clockwise.
+    /// A half-edge that leaves `v`; on a boundary that which lies there, the first counter-clockwise.
     #[inline]
     pub fn outgoing(&self, v: u32) -> u32 {
         self.vertices[v as usize].outgoing.load(Relaxed)
@@ -202,7 +202,7 @@ impl<const N: usize> SharedMesh<N> {
         mark.store(if is_dirty { block | DIRTY } else { block }, Relaxed);
     }
 
-    /// The corners around the edge of `h`, which is on no border: its ends p and q, its apex r, and the apex s across.
+    /// The corners around the edge of `h`, which is on no boundary: its ends p and q, its apex r, and the apex s across.
     pub fn quadrilateral(&self, h: u32) -> [u32; 4] {
         let t = self.twin(h);
         [self.origin(h), self.origin(t), self.turn(h).0, self.turn(t).0]
@@ -214,24 +214,24 @@ impl<const N: usize> SharedMesh<N> {
         let [p, q, r, s] = self.quadrilateral(h);
         let (r_edge, s_edge) = (prev(h), prev(t));
         let (across_t, across_h) = (self.twin(r_edge), self.twin(s_edge));
-        // On a border walks begin there, and half-edges on it may come to another place.
-        let ends_on_border = [p, q].map(|v| self.twin(self.outgoing(v)) == BORDER);
+        // On a boundary walks begin there, and half-edges on it may come to another place.
+        let ends_on_boundary = [p, q].map(|v| self.twin(self.outgoing(v)) == BOUNDARY);
         self.set(h, s, across_h);
         self.set(t, r, across_t);
         self.set(r_edge, r, s_edge);
         self.set(s_edge, s, r_edge);
         for (across, edge) in [(across_h, h), (across_t, t)] {
-            if across != BORDER {
+            if across != BOUNDARY {
                 self.set(across, self.origin(across), edge);
             }
         }
-        for (v, is_on_border, edge) in [(p, ends_on_border[0], next(t)), (q, ends_on_border[1], next(h))] {
-            if !is_on_border {
+        for (v, is_on_boundary, edge) in [(p, ends_on_boundary[0], next(t)), (q, ends_on_boundary[1], next(h))] {
+            if !is_on_boundary {
                 self.vertices[v as usize].outgoing.store(edge, Relaxed);
             }
         }
         for (v, twin, moved) in [(s, across_h, h), (r, across_t, t)] {
-            if twin == BORDER {
+            if twin == BOUNDARY {
                 self.vertices[v as usize].outgoing.store(moved, Relaxed);
             }
         }

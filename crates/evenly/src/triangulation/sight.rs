@@ -1,13 +1,13 @@
 //! What a point in a polygon sees of its cell.
 //!
-//! The border hides what lies behind it. The part of a cell that its point sees need not be convex; a star's cell is: so rules are shown the hull of that part, in which a few
-//! straight walls stand for the border, and measures what is really seen.
+//! The boundary hides what lies behind it. The part of a cell that its point sees need not be convex; a star's cell is: so rules are shown the hull of that part, in which a few
+//! straight walls stand for the boundary, and measures what is really seen.
 
 use glam::DVec2;
 
 use super::spoke::MIRROR;
 use super::walls::{Side, WallCell};
-use crate::space::{Border, GRID};
+use crate::space::{Boundary, GRID};
 
 /// Walls are so straight: they stand as much farther out as they must to have all of the hull before them, this part of the cell's radius at most.
 const SMOOTH: f64 = 0.005;
@@ -54,15 +54,15 @@ pub(crate) struct Moments {
 
 impl Sight {
     /// Leaves what a point at `at` sees of its cell in `outline`, and the hull of it in `cell`. Whether that is less than the cell.
-    pub(super) fn look(&mut self, at: DVec2, cell: &WallCell, border: &Border) -> bool {
+    pub(super) fn look(&mut self, at: DVec2, cell: &WallCell, boundary: &Boundary) -> bool {
         self.outline.clear();
         self.outline.extend(cell.sides.iter().map(|side| side.corner));
         let corners = self.outline.iter();
         let (low, high) = corners.fold((DVec2::ZERO, DVec2::ZERO), |(low, high), &corner| (low.min(corner), high.max(corner)));
-        border.find_near(at + low, at + high, &mut self.near);
+        boundary.find_near(at + low, at + high, &mut self.near);
         self.fronts.clear();
         for &k in &self.near {
-            self.fronts.extend(front(border.segment(k).map(|end| end - at), &cell.sides));
+            self.fronts.extend(front(boundary.segment(k).map(|end| end - at), &cell.sides));
         }
         let is_less = !self.fronts.is_empty();
         if is_less {

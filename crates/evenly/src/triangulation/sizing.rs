@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::half_edges::{BORDER, HalfEdges};
+use super::half_edges::{BOUNDARY, HalfEdges};
 
 /// More steps than a walk to a place nearby ever takes.
 const MAX_STEPS: usize = 1000;
@@ -17,7 +17,7 @@ pub(crate) struct Sizing {
 }
 
 impl Sizing {
-    /// The spacing at `p`. The walk there begins in triangle `hint`, and leaves there the triangle where it ends: that of `p`, or the last before a border in
+    /// The spacing at `p`. The walk there begins in triangle `hint`, and leaves there the triangle where it ends: that of `p`, or the last before a boundary in
     /// between.
     pub fn at(&self, p: DVec2, hint: &mut u32) -> f64 {
         let mut t = *hint;
@@ -27,7 +27,7 @@ impl Sizing {
             let sides = [side(0), side(1), side(2)];
             // Across the side that lies most in the way.
             let across = (0..3).filter(|&k| sides[k] < 0.0).map(|k| (sides[k], self.half_edges.twin[3 * t as usize + k]));
-            match across.filter(|&(_, twin)| twin != BORDER).min_by(|(a, _), (b, _)| a.total_cmp(b)) {
+            match across.filter(|&(_, twin)| twin != BOUNDARY).min_by(|(a, _), (b, _)| a.total_cmp(b)) {
                 Some((_, twin)) => t = twin / 3,
                 None => break,
             }

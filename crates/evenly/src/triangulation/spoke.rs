@@ -7,9 +7,9 @@ use glam::DVec2;
 pub(crate) struct Spoke<W = DVec2> {
     /// A neighbour, or [`MIRROR`].
     pub vertex: u32,
-    /// The half-edge there; [`BORDER`](super::half_edges::BORDER) for the last one of a fan.
+    /// The half-edge there; [`BOUNDARY`](super::half_edges::BOUNDARY) for the last one of a fan.
     pub half_edge: u32,
-    /// Whether it is there once more, across the border on which the vertex is: the neighbour itself is seen too.
+    /// Whether it is there once more, across the boundary on which the vertex is: the neighbour itself is seen too.
     pub is_echo: bool,
     pub way: W,
     /// In spacings; only in a star.

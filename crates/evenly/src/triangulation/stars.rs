@@ -7,7 +7,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::echoes::{close, hide, reflect};
-use super::half_edges::{BORDER, next};
+use super::half_edges::{BOUNDARY, next};
 use super::held::Held;
 use super::live::{LEAST_DENSITY, LiveMesh, Outside};
 use super::shared::Territory;
@@ -36,7 +36,7 @@ pub(crate) fn slope(known: impl Iterator<Item = (DVec2, f64)>) -> DVec2 {
 const CHUNK: usize = 1 << 12;
 /// The corners of cells are looked at up to so many times the longest spoke.
 const FAR: f64 = 16.0;
-/// By how much more than others the area of a cell at a wall or border may be off whose point stays.
+/// By how much more than others the area of a cell at a wall or boundary may be off whose point stays.
 const LEEWAY_AT_WALLS: f64 = 1.0;
 /// Where the sum of two cotangents is less than this much of its terms, exact arithmetic decides on its sign.
 const DOUBT: f64 = 1e-9;
@@ -58,7 +58,7 @@ pub(crate) struct StarBuffer {
     /// The vertices around one.
     pub near: Vec<u32>,
     pub(super) wall_cell: WallCell,
-    /// What is seen of a cell that a polygon's border cuts; nothing of others.
+    /// What is seen of a cell that a polygon's boundary cuts; nothing of others.
     pub sight: Sight,
     /// The corners of a cell.
     corners: Vec<DVec2>,
@@ -94,10 +94,10 @@ impl LiveMesh {
         if PLAIN {
             return Ok(());
         }
-        if let Some(border) = &self.domain.border
-            && !self.is_clear(border, v, buffer)
+        if let Some(boundary) = &self.domain.boundary
+            && !self.is_clear(boundary, v, buffer)
         {
-            self.fill_within(border, v, territory, buffer)?;
+            self.fill_within(boundary, v, territory, buffer)?;
         }
         if self.is_fixed(v) && buffer.star.is_mirror.contains(&true) {
             buffer.star.leeway = LEEWAY_AT_WALLS;
@@ -199,15 +199,15 @@ impl LiveMesh {
             star.rail = held.rail(v);
             star.slope = slope(moving.iter().map(|spoke| (scale * spoke.way, held.size(spoke.vertex) / held.size(v))));
             for (spoke, after) in moving.iter().zip(moving[1..].iter().chain(&moving[..1])) {
-                if spoke.half_edge != BORDER && self.is_wall(held, spoke, after) {
+                if spoke.half_edge != BOUNDARY && self.is_wall(held, spoke, after) {
                     let normal = -(after.way - spoke.way).perp().normalize_or_zero();
                     star.walls.push(Wall { normal, distance: scale * spoke.way.dot(normal) });
                 }
             }
-            if moving[moving.len() - 1].half_edge == BORDER {
+            if moving[moving.len() - 1].half_edge == BOUNDARY {
                 reflect(star);
             }
-        } else if self.domain.border.is_some() {
+        } else if self.domain.boundary.is_some() {
             let walls = spokes.iter().filter(|spoke| spoke.vertex == MIRROR);
             star.walls.extend(walls.map(|spoke| Wall { normal: spoke.way.normalize_or_zero(), distance: 0.5 * spoke.length }));
         } else if !self.domain.is_periodic {
@@ -262,7 +262,7 @@ impl LiveMesh {
             if half_edge == first {
                 return Ok(());
             }
-            if !PLAIN && half_edge == BORDER {
+            if !PLAIN && half_edge == BOUNDARY {
                 if !self.is_free(vertex, territory) {
                     return Err(Outside);
                 }
@@ -280,7 +280,7 @@ impl LiveMesh {
         for (k, spoke) in ring.iter().enumerate() {
             let after = ring.get(k + 1).unwrap_or(&ring[0]);
             let is_doubted = is_doubtful((after.squared - spoke.dot) * before.cross, (before.squared - before.dot) * spoke.cross);
-            if is_doubted && spoke.half_edge != BORDER && self.is_illegal(spoke.half_edge) {
+            if is_doubted && spoke.half_edge != BOUNDARY && self.is_illegal(spoke.half_edge) {
                 return Some(spoke.half_edge);
             }
             before = spoke;
@@ -315,13 +315,13 @@ impl LiveMesh {
                 self.wall_off(held, v, star, spokes);
             }
             let n = spokes.len();
-            if spokes[n - 1].half_edge == BORDER {
+            if spokes[n - 1].half_edge == BOUNDARY {
                 close(star, spokes);
                 if senses.echoes && held.is_on_rail(v) {
                     hide(star, spokes, n);
                 }
             }
-        } else if !self.domain.is_periodic && self.domain.border.is_none() {
+        } else if !self.domain.is_periodic && self.domain.boundary.is_none() {
             let at = self.mesh.position(v);
             let wall = at.min(self.domain.size - at).min_element() * scale;
             let is_clear = spokes.iter().zip(0..).all(|(spoke, k)| spoke.vertex < self.n_live && star.is_covered(k, wall));

@@ -13,7 +13,7 @@
 use glam::{DVec2, IVec2};
 use rayon::prelude::*;
 
-use super::half_edges::{BORDER, HalfEdges, smallest};
+use super::half_edges::{BOUNDARY, HalfEdges, smallest};
 use super::mesh::Triangulation;
 use super::plane;
 use crate::error::Error;
@@ -136,14 +136,14 @@ fn unrolled(ours: &HalfEdges, n: u32, copies: [u32; 2], place: impl Fn(u32) -> (
             base + n * (copy.x + size.x * copy.y) as u32
         }));
     }
-    let twin = vec![BORDER; origin.len()];
+    let twin = vec![BOUNDARY; origin.len()];
     HalfEdges { origin, twin }.filtered(|_, t| Some(smallest(t)))
 }
 
-/// Joins borders that have the same ends; false if some border is left.
+/// Joins boundaries that have the same ends; false if some boundary is left.
 fn close(mesh: &mut HalfEdges) -> bool {
     let mut seam: Vec<(u32, u32, u32)> = (0..mesh.origin.len() as u32)
-        .filter(|&h| mesh.is_border(h))
+        .filter(|&h| mesh.is_boundary(h))
         .map(|h| {
             let (u, v) = (mesh.origin[h as usize], mesh.target(h));
             (u.min(v), u.max(v), h)

@@ -30,7 +30,7 @@ impl Transplant {
 
 /// A walk that has taken so many steps more than there are triangles has lost its way.
 const SPARE_STEPS: usize = 100;
-/// The part of the way to a triangle's middle, or the domain's, by which a place is moved that lies on its border.
+/// The part of the way to a triangle's middle, or the domain's, by which a place is moved that lies on its boundary.
 const NUDGE: f64 = 1e-6;
 
 impl LiveMesh {
@@ -156,7 +156,7 @@ impl LiveMesh {
                 (triangle, corner, way) = (twin / 3, twin as usize % 3, ways[(k + 1) % 3]);
             } else {
                 // In a rectangle the triangle may lie outside; in a polygon the middle may as well.
-                let inwards = match (&self.domain.border, self.domain.is_periodic) {
+                let inwards = match (&self.domain.boundary, self.domain.is_periodic) {
                     (Some(_), _) => self.spacing * DVec2::from_angle(step as f64),
                     (None, true) => (ways[0] + ways[1] + ways[2]) / 3.0,
                     (None, false) => 0.5 * self.domain.size - place,

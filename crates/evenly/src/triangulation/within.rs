@@ -9,9 +9,9 @@ use super::live::{LiveMesh, Outside};
 use super::shared::Territory;
 use super::sight::Moments;
 use super::stars::StarBuffer;
-use crate::space::Border;
+use crate::space::Boundary;
 
-/// By how much more than others the area of a cell may be off that a polygon's border cuts: in its nooks it must.
+/// By how much more than others the area of a cell may be off that a polygon's boundary cuts: in its nooks it must.
 const LEEWAY: f64 = 0.25;
 /// Half the side of the box, in spacings, in which a point looks first for what it sees.
 const NEARBY: f64 = 2.5;
@@ -20,27 +20,28 @@ const MOST_SEEN: usize = 400;
 /// How exactly the square of a cell's reach is found where cells overlap, and how many triangles are looked at for it, at most.
 const EXACT: f64 = 1e-6;
 const MOST_LOOKS: usize = 1 << 11;
-/// Corners of triangles, which may be on a border, are looked at this part of the way before them.
-const ON_BORDER: f64 = 1e-6;
+/// Corners of triangles, which may be on a boundary, are looked at this part of the way before them.
+const ON_BOUNDARY: f64 = 1e-6;
 
 impl LiveMesh {
-    /// Whether nothing of a border is so near to a point that its star could be another there, and none of its neighbours is the frame's.
-    pub(super) fn is_clear(&self, border: &Border, v: u32, buffer: &mut StarBuffer) -> bool {
+    /// Whether nothing of a boundary is so near to a point that its star could be another there, and none of its neighbours is the frame's.
+    pub(super) fn is_clear(&self, boundary: &Boundary, v: u32, buffer: &mut StarBuffer) -> bool {
         let StarBuffer { star, spokes, .. } = buffer;
         let at = self.mesh.position(v);
         let reach = (0..star.n_spokes()).map(|k| star.lengths[k].max(star.circumradius(k))).fold(0.0, f64::max) * self.spacing;
-        spokes.iter().all(|spoke| spoke.vertex < self.n_live) && (border.clearance(at) > reach || !border.is_near(at - reach, at + reach))
+        spokes.iter().all(|spoke| spoke.vertex < self.n_live)
+            && (boundary.clearance(at) > reach || !boundary.is_near(at - reach, at + reach))
     }
 
     /// Turns the spokes in the buffer into the star of what is seen of the cell in a polygon.
-    pub(super) fn fill_within(&self, border: &Border, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
+    pub(super) fn fill_within(&self, boundary: &Boundary, v: u32, territory: Territory, buffer: &mut StarBuffer) -> Result<(), Outside> {
         let at = self.mesh.position(v);
         let (low, high) = (-at, self.domain.size - at);
-        // Where a border is near, little is seen: of a box around, and of a larger one where that is not all.
+        // Where a boundary is near, little is seen: of a box around, and of a larger one where that is not all.
         let mut half = DVec2::splat(NEARBY * self.spacing);
         let is_less = loop {
             let (box_low, box_high) = (low.max(-half), high.min(half));
-            let is_less = self.look_within(border, v, [box_low, box_high], territory, buffer)?;
+            let is_less = self.look_within(boundary, v, [box_low, box_high], territory, buffer)?;
             let is_whole = box_low == low && box_high == high;
             if is_whole || buffer.sight.outline.iter().all(|corner| corner.cmpgt(0.999 * -half).all() && corner.cmplt(0.999 * half).all()) {
                 break is_less;
@@ -64,7 +65,7 @@ impl LiveMesh {
     /// Finds what `v` sees of its cell in a box, given relative to it; whether that is less than the cell that its neighbours in the mesh cut out.
     fn look_within(
         &self,
-        border: &Border,
+        boundary: &Boundary,
         v: u32,
         [low, high]: [DVec2; 2],
         territory: Territory,
@@ -80,14 +81,14 @@ impl LiveMesh {
         let mut n_hidden = spokes.len() - near.len();
         for &other in &*near {
             let place = self.mesh.position(other);
-            if border.sees(at, place) {
+            if boundary.sees(at, place) {
                 wall_cell.cut(other, place - at);
             } else {
                 n_hidden += 1;
             }
         }
         if n_hidden == 0 {
-            return Ok(sight.look(at, wall_cell, border));
+            return Ok(sight.look(at, wall_cell, boundary));
         }
         // Where neighbours are hidden, others stand in for them: from ring to ring.
         near.push(v);
@@ -109,13 +110,13 @@ impl LiveMesh {
             let mut is_cut = reach.is_infinite();
             for &other in &near[ring.clone()] {
                 let place = self.mesh.position(other);
-                if wall_cell.is_cut_by(place - at) && border.sees(at, place) {
+                if wall_cell.is_cut_by(place - at) && boundary.sees(at, place) {
                     wall_cell.cut(other, place - at);
                     is_cut = true;
                 }
             }
             if is_cut {
-                sight.look(at, wall_cell, border);
+                sight.look(at, wall_cell, boundary);
                 reach = 2.0 * sight.reach();
             }
         }
@@ -142,7 +143,7 @@ impl LiveMesh {
         }
         let sees = |other: DVec2, place: DVec2| self.domain.sees(at + other, at + place);
         let sees_all = |other: DVec2, corners: [DVec2; 3]| {
-            self.border().is_none_or(|border| border.sees_all(at + other, corners.map(|corner| at + corner)))
+            self.boundary().is_none_or(|boundary| boundary.sees_all(at + other, corners.map(|corner| at + corner)))
         };
         let ends = outline.iter().zip(outline.iter().cycle().skip(1));
         let mut parts: BinaryHeap<Part> = ends.map(|(&a, &b)| Part::new([DVec2::ZERO, a, b], DVec2::ZERO, f64::INFINITY)).collect();
@@ -157,15 +158,15 @@ impl LiveMesh {
             let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
             let of = |place: DVec2| place.length_squared().min(place.distance_squared(seer));
             let farthest = corners.into_iter().max_by(|&a, &b| of(a).total_cmp(&of(b)));
-            for place in [farthest.unwrap_or(middle).lerp(middle, ON_BORDER), middle] {
+            for place in [farthest.unwrap_or(middle).lerp(middle, ON_BOUNDARY), middle] {
                 let mut distance = place.length_squared().min(place.distance_squared(seer));
                 seers.clear();
                 seers.extend(nearer.iter().copied().filter(|&other| place.distance_squared(other) < distance));
                 seers.sort_by(|a, b| place.distance_squared(*a).total_cmp(&place.distance_squared(*b)));
                 for &other in seers.iter().filter(|&&other| sees(other, place)) {
                     distance = distance.min(place.distance_squared(other));
-                    // On a border nobody sees a place, so one before it stands for it.
-                    if sees_all(other, corners.map(|corner| corner.lerp(middle, ON_BORDER))) {
+                    // On a boundary nobody sees a place, so one before it stands for it.
+                    if sees_all(other, corners.map(|corner| corner.lerp(middle, ON_BOUNDARY))) {
                         seer = other;
                         break;
                     }

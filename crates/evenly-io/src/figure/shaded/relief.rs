@@ -24,7 +24,7 @@ pub(super) struct Facet {
 pub(super) struct Relief {
     /// The farthest first.
     pub facets: Vec<Facet>,
-    /// The left and the upper border.
+    /// The left and the upper boundary.
     pub corner: [f64; 2],
     /// In pixels.
     pub line_width: f64,

@@ -12,7 +12,7 @@ pub(super) struct Waves {
     /// Places in the domain as shares of its sides, in [0, 1].
     pub x: Vec<f64>,
     pub y: Vec<f64>,
-    /// What each point counts: 1 on a torus, less near a rectangle's border.
+    /// What each point counts: 1 on a torus, less near a rectangle's boundary.
     pub weight: Vec<f64>,
     pub half: [usize; 2],
     has_window: bool,

@@ -5,14 +5,14 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use crate::mesh::state::State;
-use crate::triangulation::{BORDER, Edge, Track};
+use crate::triangulation::{BOUNDARY, Edge, Track};
 
 /// What is to be changed.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Change {
     /// This point goes.
     Remove(u32),
-    /// One comes here, onto this edge of the border or of a line.
+    /// One comes here, onto this edge of the boundary or of a line.
     Halve(usize, DVec2),
     /// The same, instead of this point beside it.
     Land(u32, usize, DVec2),
@@ -70,7 +70,7 @@ impl Drafts {
     fn add(&mut self, at: DVec2, track: Track, hint: u32) -> u32 {
         let State { points, corners, bonds } = &mut self.state;
         points.push(at);
-        corners.push(BORDER);
+        corners.push(BOUNDARY);
         bonds.tracks.push(track);
         bonds.hints.push(hint);
         self.is_gone.push(false);

@@ -120,7 +120,7 @@ impl Gaps {
         };
         let at = self.mesh.position(v);
         let domain = self.mesh.domain();
-        if domain.border.is_some() {
+        if domain.boundary.is_some() {
             // Of what is seen, the farthest place.
             let farthest = self.buffer.sight.outline.iter().copied().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
             let place = domain.walk(at, at + farthest.unwrap_or_default());

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::model::{H, Sides, amplitude as fitted};
 use crate::space::Domain;
-use crate::triangulation::{BORDER, Patch, prev};
+use crate::triangulation::{BOUNDARY, Patch, prev};
 
 /// When an edge is flipped.
 pub(super) struct FlipRule<'a> {
@@ -27,7 +27,7 @@ impl FlipRule<'_> {
             let mut n_listed = 0;
             for h in start..end.min(start + BLOCK as u32) {
                 listed[n_listed] = h;
-                // An edge is visited from its smaller half; BORDER wraps to 0.
+                // An edge is visited from its smaller half; BOUNDARY wraps to 0.
                 n_listed += usize::from(patch.twin[(h - first) as usize].wrapping_add(1) > h);
             }
             let mut n_left = 0;
@@ -70,7 +70,7 @@ impl FlipRule<'_> {
         let i = (h - patch.first) as usize;
         let t = patch.twin[i];
         let Some(j) = patch.local(t) else {
-            if t != BORDER {
+            if t != BOUNDARY {
                 leftovers.push(h);
             }
             return false;

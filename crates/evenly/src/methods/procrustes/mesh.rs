@@ -7,7 +7,7 @@ use super::flips::FlipRule;
 use super::model::{Sides, amplitude, triangle_energy, ways_to_targets};
 use crate::error::Error;
 use crate::space::Domain;
-use crate::triangulation::{BORDER, Chunks, Patch, Triangulation, cover};
+use crate::triangulation::{BOUNDARY, Chunks, Patch, Triangulation, cover};
 
 /// What a vertex's triangles ask of it: the sum of the ways to its targets, and how many there are.
 #[derive(Clone, Copy, Default)]
@@ -72,9 +72,9 @@ impl Mesh {
         mesh
     }
 
-    /// Proves what the triangulation claims to be. Around points that stay its border need not be convex, nor in a polygon, nor where gaps stop points.
+    /// Proves what the triangulation claims to be. Around points that stay its boundary need not be convex, nor in a polygon, nor where gaps stop points.
     fn check(&self) -> Result<(), String> {
-        let is_rough = self.n_fixed > 0 || self.triangulation.domain.border.is_some() || self.sides.gaps.is_some();
+        let is_rough = self.n_fixed > 0 || self.triangulation.domain.boundary.is_some() || self.sides.gaps.is_some();
         if is_rough { self.triangulation.check_bounded() } else { self.triangulation.check() }
     }
 
@@ -292,12 +292,12 @@ impl Mesh {
     }
 }
 
-/// Border vertices of a rectangle, with the axes along which they may move, and those that stay.
+/// Boundary vertices of a rectangle, with the axes along which they may move, and those that stay.
 fn sliders(triangulation: &Triangulation, n_fixed: usize) -> Vec<(u32, DVec2)> {
     let Triangulation { half_edges, positions, domain, order, .. } = triangulation;
     let fixed = (0..).zip(order).filter(|&(_, &index)| (index as usize) < n_fixed).map(|(vertex, _)| (vertex, DVec2::ZERO));
-    let border = (0..half_edges.origin.len()).filter(|&h| half_edges.twin[h] == BORDER);
-    border
+    let boundary = (0..half_edges.origin.len()).filter(|&h| half_edges.twin[h] == BOUNDARY);
+    boundary
         .map(|h| half_edges.origin[h])
         .map(|vertex| {
             let p = positions[vertex as usize];

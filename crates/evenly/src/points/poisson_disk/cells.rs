@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::space::{Border, Domain};
+use crate::space::{Boundary, Domain};
 
 /// A grid of cells so small that each holds one point at most; around it, as far as disks reach, on a torus copies, and in a rectangle nothing.
 pub(super) struct Cells {
     pub domain: Domain,
     /// What hides points from each other, if anything does.
-    pub walls: Option<Arc<Border>>,
+    pub walls: Option<Arc<Boundary>>,
     pub side: DVec2,
     /// Cells of the domain along each axis, and how many more stand on each side.
     n_own: [usize; 2],
@@ -47,13 +47,13 @@ impl Cells {
         around.sort_by_key(|[x, y]| x * x + y * y);
         let around = around.into_iter().map(|[x, y]| x + y * stride as isize).collect();
         let (points, clocks) = (vec![DVec2::NAN; n_cells], vec![f32::INFINITY; n_cells]);
-        let walls = domain.border.clone().filter(|_| is_visible);
+        let walls = domain.boundary.clone().filter(|_| is_visible);
         Self { domain: domain.clone(), walls, side, n_own, margin, stride, points, clocks, around }
     }
 
     /// Whether no wall stands between two places.
     pub fn sees(&self, a: DVec2, b: DVec2) -> bool {
-        self.walls.as_ref().is_none_or(|border| border.sees(a, b))
+        self.walls.as_ref().is_none_or(|boundary| boundary.sees(a, b))
     }
 
     /// The cells of the domain, row by row.
@@ -109,7 +109,7 @@ impl Cells {
         for [x, y] in BESIDE {
             let to_far_side = (centre + DVec2::new(x as f64, y as f64) * self.side - point).abs() + half;
             let beside = (cell as isize + x + y * self.stride as isize) as usize;
-            let is_seen = self.walls.as_ref().is_none_or(|border| border.clearance(point) * border.clearance(point) > coverage);
+            let is_seen = self.walls.as_ref().is_none_or(|boundary| boundary.clearance(point) * boundary.clearance(point) > coverage);
             if is_seen && to_far_side.length_squared() <= coverage && self.clocks[beside] < f32::INFINITY {
                 self.set_clock(self.original(beside), f32::INFINITY);
             }

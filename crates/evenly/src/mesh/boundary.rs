@@ -1,4 +1,4 @@
-//! Points on the border and on lines: each segment is divided into parts as long as the spacing there, as nearly as whole numbers allow.
+//! Points on the boundary and on lines: each segment is divided into parts as long as the spacing there, as nearly as whole numbers allow.
 
 use glam::DVec2;
 
@@ -31,7 +31,7 @@ struct Piece {
     n_spacings: f64,
 }
 
-/// Divides each segment of the outline, and makes the spacing on the border that of the parts.
+/// Divides each segment of the outline, and makes the spacing on the boundary that of the parts.
 pub(super) fn divide(outline: &Outline, background: &mut Background) -> Vec<Parts> {
     let pieces = pieces(outline, background);
     let sizing = &mut background.sizing;

@@ -1,15 +1,15 @@
-//! The border of a rectangle, sampled before the inside: corners stay, points between them slide along their wall.
+//! The boundary of a rectangle, sampled before the inside: corners stay, points between them slide along their wall.
 //!
-//! Any triangulation of points of which the outermost lie on the border, corners included, covers the whole rectangle, and a
+//! Any triangulation of points of which the outermost lie on the boundary, corners included, covers the whole rectangle, and a
 //! vertex is never without triangles. The paper's dual of the clipped Voronoi diagram does neither; it is what remains here where
-//! no triangle at the border has an obtuse angle opposite to it, which [`resettle`] sees to.
+//! no triangle at the boundary has an obtuse angle opposite to it, which [`resettle`] sees to.
 
 use glam::DVec2;
 
 use crate::error::Error;
 use crate::points::part;
 use crate::space::Domain;
-use crate::triangulation::{BORDER, HalfEdges, Triangulation, clipped, delaunay, next, prev};
+use crate::triangulation::{BOUNDARY, HalfEdges, Triangulation, clipped, delaunay, next, prev};
 
 /// Points nearer to a wall than this, in spacings, are either on it or moved away from it.
 const CLEARANCE: f64 = 0.6;
@@ -18,15 +18,15 @@ const CLEARANCE: f64 = 0.6;
 const TOO_NEAR: f64 = 0.25;
 /// A place nearer than this to a point that stays, in spacings, is taken.
 const TAKEN: f64 = 1e-6;
-/// The fewest points that can sample a border: one a corner.
+/// The fewest points that can sample a boundary: one a corner.
 const FEWEST: usize = 4;
 
-/// Whether a rectangle is too narrow for points on its border and others inside.
+/// Whether a rectangle is too narrow for points on its boundary and others inside.
 pub(super) fn is_narrow(size: DVec2, spacing: f64) -> bool {
     size.min_element() < 3.0 * spacing
 }
 
-/// What kind of border there is to see to.
+/// What kind of boundary there is to see to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rim {
     /// None, or too few points for one.
@@ -39,7 +39,7 @@ pub(super) enum Rim {
     Gaps,
 }
 
-/// Iterations after which a rectangle's triangulation is rebuilt, while border points find their place.
+/// Iterations after which a rectangle's triangulation is rebuilt, while boundary points find their place.
 const REBUILDS: [usize; 4] = [3, 6, 12, 24];
 /// A polygon's is after each so many, until so many have been made; and after each so many more.
 const CUT: usize = 3;
@@ -49,14 +49,14 @@ const LATER_CUT: usize = 30;
 impl Rim {
     pub fn of(domain: &Domain, has_gaps: bool, n_points: usize) -> Self {
         match () {
-            () if domain.border.is_some() => Self::Polygon,
+            () if domain.boundary.is_some() => Self::Polygon,
             () if has_gaps => Self::Gaps,
             () if domain.is_periodic || n_points < FEWEST => Self::None,
             () => Self::Walls,
         }
     }
 
-    /// Makes the triangulation one that ends at the border.
+    /// Makes the triangulation one that ends at the boundary.
     pub fn settle(self, triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
         match self {
             Self::None | Self::Gaps => Ok(triangulation),
@@ -90,7 +90,7 @@ impl Rim {
         }
     }
 
-    /// Whether the border has found its place after so many iterations.
+    /// Whether the boundary has found its place after so many iterations.
     pub fn has_settled(self, iteration: usize) -> bool {
         match self {
             Self::None => true,
@@ -100,7 +100,7 @@ impl Rim {
     }
 }
 
-/// Moves points onto the border: one to each corner, others evenly spaced along the walls; and the rest off it.
+/// Moves points onto the boundary: one to each corner, others evenly spaced along the walls; and the rest off it.
 ///
 /// The caller's first `n_fixed` points stay; places that they take are theirs.
 fn settle(triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
@@ -123,7 +123,7 @@ fn settle(triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<
     delaunay(&domain, positions, order)
 }
 
-/// Moves points of a polygon apart that have come together at its border.
+/// Moves points of a polygon apart that have come together at its boundary.
 pub(super) fn part_crowded(domain: &Domain, positions: &mut [DVec2], order: &[u32], n_fixed: usize, spacing: f64) {
     part(domain, positions, |vertex| (order[vertex] as usize) < n_fixed, TOO_NEAR, spacing);
 }
@@ -137,7 +137,7 @@ fn cut_out(triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result
     Ok(cut)
 }
 
-/// Makes the triangulation Delaunay again; points that come too near to the border join it, those that crowd on it leave it.
+/// Makes the triangulation Delaunay again; points that come too near to the boundary join it, those that crowd on it leave it.
 fn resettle(mut triangulation: Triangulation, n_fixed: usize, spacing: f64) -> Result<Triangulation, Error> {
     triangulation.legalize();
     let moves = joining(&triangulation).into_iter().chain(leaving(&triangulation, spacing));
@@ -154,7 +154,7 @@ fn resettle(mut triangulation: Triangulation, n_fixed: usize, spacing: f64) -> R
 
 /// The corners, and places evenly spaced between them, counter-clockwise; as many as suit `n_points`.
 fn places(size: DVec2, n_points: usize) -> Vec<DVec2> {
-    // With spacing 1 / y, n hexagonal cells, of which a border point has half and a corner a quarter, fill the rectangle:
+    // With spacing 1 / y, n hexagonal cells, of which a boundary point has half and a corner a quarter, fill the rectangle:
     // (2 / sqrt(3)) A y^2 + (P / 2) y + 1 = n.
     let (a, b) = (2.0 / 3f64.sqrt() * size.x * size.y, size.x + size.y);
     let per_length = (-b + (b * b + 4.0 * a * (n_points as f64 - 1.0)).sqrt()) / (2.0 * a);
@@ -220,11 +220,11 @@ fn cleared(p: DVec2, size: DVec2, spacing: f64) -> DVec2 {
     DVec2::select(gap.cmplt(clearance), size - (clearance + 0.1 * gap), from_low)
 }
 
-/// Vertices that see an edge of the border at an obtuse angle, and their places on it.
+/// Vertices that see an edge of the boundary at an obtuse angle, and their places on it.
 fn joining(triangulation: &Triangulation) -> Vec<(u32, DVec2)> {
     let Triangulation { half_edges, positions, .. } = triangulation;
     let at = |h: u32| positions[half_edges.origin[h as usize] as usize];
-    border(half_edges)
+    boundary(half_edges)
         .filter_map(|h| {
             let (a, b, apex) = (at(h), at(next(h)), at(prev(h)));
             let edge = b - a;
@@ -238,13 +238,13 @@ fn joining(triangulation: &Triangulation) -> Vec<(u32, DVec2)> {
 /// Vertices that lie on a wall between two neighbours on it that are too near, and places off the wall; never two in a row.
 fn leaving(triangulation: &Triangulation, spacing: f64) -> Vec<(u32, DVec2)> {
     let Triangulation { half_edges, positions, domain, .. } = triangulation;
-    let mut following = vec![BORDER; positions.len()];
-    for h in border(half_edges) {
+    let mut following = vec![BOUNDARY; positions.len()];
+    for h in boundary(half_edges) {
         following[half_edges.origin[h as usize] as usize] = half_edges.target(h);
     }
     let mut leaving = Vec::new();
     let mut has_left = vec![false; positions.len()];
-    for before in border(half_edges).map(|h| half_edges.origin[h as usize]) {
+    for before in boundary(half_edges).map(|h| half_edges.origin[h as usize]) {
         let vertex = following[before as usize];
         let after = following[vertex as usize];
         let [a, b, c] = [before, vertex, after].map(|v| positions[v as usize]);
@@ -258,6 +258,6 @@ fn leaving(triangulation: &Triangulation, spacing: f64) -> Vec<(u32, DVec2)> {
     leaving
 }
 
-fn border(half_edges: &HalfEdges) -> impl Iterator<Item = u32> {
-    (0..half_edges.origin.len() as u32).filter(|&h| half_edges.is_border(h))
+fn boundary(half_edges: &HalfEdges) -> impl Iterator<Item = u32> {
+    (0..half_edges.origin.len() as u32).filter(|&h| half_edges.is_boundary(h))
 }

@@ -1,4 +1,4 @@
-//! [`Border`]: the segments around a polygon, so kept that it is soon said what is inside, what is near, and what hides what: in a tree; and bins tell how far the nearest are.
+//! [`Boundary`]: the segments around a polygon, so kept that it is soon said what is inside, what is near, and what hides what: in a tree; and bins tell how far the nearest are.
 
 use glam::DVec2;
 
@@ -6,16 +6,16 @@ use super::grid::{GRID, snap};
 use super::segment_tree::SegmentTree;
 use crate::predicates::is_left_turn;
 
-/// A border of straight segments in a domain [0, size]; the inside is on their left.
+/// A boundary of straight segments in a domain [0, size]; the inside is on their left.
 #[derive(Debug)]
-pub(crate) struct Border {
+pub(crate) struct Boundary {
     segments: Vec<[DVec2; 2]>,
     /// The part of the inside on each segment's left, and the parts' areas.
     parts: Vec<u32>,
     part_areas: Vec<f64>,
     /// The area inside.
     pub area: f64,
-    /// Places nearer to the border than this cannot be told from those on it.
+    /// Places nearer to the boundary than this cannot be told from those on it.
     tolerance: f64,
     n_bins: [usize; 2],
     /// Bins to a unit along each axis.
@@ -35,7 +35,7 @@ struct Bin {
     is_inside: bool,
 }
 
-/// Where a way first meets the border.
+/// Where a way first meets the boundary.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Meeting {
     /// The part of the way until there.
@@ -55,14 +55,14 @@ const DIRECTIONS: u32 = 16;
 const FARTHER: f64 = 4.0;
 const TRIES: i32 = 40;
 
-impl Border {
-    /// Segments that do not cross, each with the part of the inside on its left, in a domain of this size, around parts of these areas. Places nearer to them than `tolerance` count as on the border.
+impl Boundary {
+    /// Segments that do not cross, each with the part of the inside on its left, in a domain of this size, around parts of these areas. Places nearer to them than `tolerance` count as on the boundary.
     pub fn new(segments: Vec<[DVec2; 2]>, parts: Vec<u32>, part_areas: Vec<f64>, size: DVec2, tolerance: f64) -> Self {
         let wanted = (BINS * segments.len()).clamp(FEWEST_BINS, MOST_BINS) as f64;
         let square = (size.x * size.y / wanted).sqrt();
         let n_bins = (size / square).round().clamp(DVec2::ONE, DVec2::splat(wanted)).to_array().map(|n| n as usize);
         let resolution = DVec2::new(n_bins[0] as f64, n_bins[1] as f64) / size;
-        let mut border = Self {
+        let mut boundary = Self {
             area: part_areas.iter().sum(),
             parts,
             part_areas,
@@ -74,10 +74,10 @@ impl Border {
             bins: vec![Bin { clearance: FAR, is_inside: false }; n_bins[0] * n_bins[1]],
             segments,
         };
-        border.mark_bins();
-        border.find_clearances();
-        border.find_inside();
-        border
+        boundary.mark_bins();
+        boundary.find_clearances();
+        boundary.find_inside();
+        boundary
     }
 
     /// Marks the bins that segments reach.
@@ -189,18 +189,18 @@ impl Border {
         is_odd
     }
 
-    /// Whether a place on the grid lies inside. Exact, but on the border itself.
+    /// Whether a place on the grid lies inside. Exact, but on the boundary itself.
     pub fn contains(&self, p: DVec2) -> bool {
         let bin = self.bins[self.bin(p)];
         if bin.clearance > 0 { bin.is_inside } else { self.is_enclosed(p) }
     }
 
-    /// Whether a place lies inside or on the border, as far as that can be told.
+    /// Whether a place lies inside or on the boundary, as far as that can be told.
     pub fn holds(&self, p: DVec2) -> bool {
         self.contains(p) || self.is_on(p, self.tolerance)
     }
 
-    /// Whether a place is nearer to the border than this.
+    /// Whether a place is nearer to the boundary than this.
     fn is_on(&self, p: DVec2, distance: f64) -> bool {
         self.clearance(p) <= distance && self.any_in(p - distance, p + distance, |segment| distance_to(p, segment) <= distance)
     }
@@ -210,7 +210,7 @@ impl Border {
         self.tree.find(|a, b| a.cmple(high).all() && b.cmpge(low).all(), |segment, _| is_it(segment))
     }
 
-    /// A place inside, clear of the border, next to `p`, which is held; or itself, if there is none.
+    /// A place inside, clear of the boundary, next to `p`, which is held; or itself, if there is none.
     pub fn inside(&self, p: DVec2) -> DVec2 {
         let is_good = |p: DVec2, margin: f64| self.contains(p) && !self.is_on(p, margin);
         if is_good(p, self.tolerance) {
@@ -416,14 +416,14 @@ mod tests {
         }
         let polygon = Polygon::from_rings(rings).unwrap();
         let domain = Space::from(&polygon).domain();
-        let border = domain.border.as_ref().unwrap();
+        let boundary = domain.boundary.as_ref().unwrap();
         for _ in 0..20_000 {
             let p = snap(DVec2::new(random.unit(), random.unit()) * domain.size);
-            let crossed = border.segments().iter().filter(|[a, b]| {
+            let crossed = boundary.segments().iter().filter(|[a, b]| {
                 let [low, high] = if a.y < b.y { [a, b] } else { [b, a] };
                 low.y <= p.y && p.y < high.y && (high - low).perp_dot(p - low) > 0.0
             });
-            assert_eq!(border.contains(p), crossed.count() % 2 == 1, "{p}");
+            assert_eq!(boundary.contains(p), crossed.count() % 2 == 1, "{p}");
         }
     }
 }
